@@ -105,6 +105,55 @@ TEST(GltfMaterials, TransmissionMakesPanesAndSolids) {
     EXPECT_TRUE(warns_of(solid, "the colour of the solid glass is left out"));
 }
 
+TEST(GltfMaterials, MetalsTransmitNoLight) {
+    const auto read = [](double metallic) {
+        return read_material(
+            pbr(fmt::format(
+                R"("baseColorFactor": [0.9, 0.8, 0.7, 1], "metallicFactor": {}, "roughnessFactor": 0.4)",
+                metallic)),
+            R"("KHR_materials_transmission": {"transmissionFactor": 1})");
+    };
+    EXPECT_NEAR(material_of<RoughConductor>(read(1)).parameters().reflectance[0], 0.9, 1e-9);
+    EXPECT_TRUE(warns_of(read(1), "metals transmit no light"));
+    EXPECT_NEAR(material_of<ThinDielectric>(read(0.25)).internal_transmittance[0], 0.75 * 0.9, 1e-9);
+    EXPECT_FALSE(warns_of(read(0), "metals transmit no light"));
+}
+
+SceneFile read_specular_glossiness(const std::string& members) {
+    return read_material(R"("name": "m")", R"("KHR_materials_pbrSpecularGlossiness": {)" + members + "}");
+}
+
+TEST(GltfMaterials, SpecularGlossinessIsADiffuseColourUnderACoat) {
+    const SceneFile file = read_specular_glossiness(
+        R"("diffuseFactor": [0.3, 0.3, 0.3, 1], "specularFactor": [0.04, 0.04, 0.04], "glossinessFactor": 0.5)");
+    const auto plastic = material_of<Plastic>(file);
+    EXPECT_NEAR(plastic.parameters().ior, 1.5, 1e-9);
+    EXPECT_NEAR(plastic.parameters().roughness, 0.25, 1e-9);
+    const double coat = Plastic({Rgb{}, 1.5, 0.25}).mean_reflectance().luminance();
+    EXPECT_NEAR(plastic.mean_reflectance()[0], coat + (1 - coat) * 0.3, 1e-9);
+    EXPECT_FALSE(warns_of(file, "extension"));
+}
+
+TEST(GltfMaterials, SpecularGlossinessWithoutDiffuseColourIsMetal) {
+    const auto metal = material_of<RoughConductor>(read_specular_glossiness(
+        R"("diffuseFactor": [0, 0, 0, 1], "specularFactor": [0.9, 0.7, 0.4], "glossinessFactor": 0.6)"));
+    expect_rgb(metal.parameters().reflectance, {{0.9, 0.7, 0.4}});
+    EXPECT_NEAR(metal.parameters().roughness, 0.16, 1e-9);
+    // Plastic reaches to the reflectance of ior 4, 0.36; both sides of this border reflect alike.
+    const auto below = material_of<Plastic>(read_specular_glossiness(
+        R"("diffuseFactor": [0.5, 0.5, 0.5, 1], "specularFactor": [0.359, 0.359, 0.359], "glossinessFactor": 0.9)"));
+    EXPECT_NEAR(below.mean_reflectance()[0], 0.36 + 0.64 * 0.5, 0.03);
+    const auto above = material_of<RoughConductor>(read_specular_glossiness(
+        R"("diffuseFactor": [0.5, 0.5, 0.5, 1], "specularFactor": [0.361, 0.361, 0.361], "glossinessFactor": 0.9)"));
+    EXPECT_NEAR(above.parameters().reflectance[0], 0.361 + 0.639 * 0.5, 1e-9);
+    // Without highlights.
+    EXPECT_NEAR(
+        material_of<Diffuse>(
+            read_specular_glossiness(R"("diffuseFactor": [0.5, 0.5, 0.5, 1], "specularFactor": [0, 0, 0])"))
+            .reflectance[0],
+        0.5, 1e-9);
+}
+
 TEST(GltfMaterials, AlphaBlendedSheetsTransmitTheRest) {
     const SceneFile file = read_material(pbr(R"("baseColorFactor": [1, 1, 1, 0.25], "metallicFactor": 0)") +
                                          R"(, "alphaMode": "BLEND")");
@@ -165,6 +214,29 @@ TEST(GltfMaterials, TexturesCountByTheirMeanOverTheSurface) {
     EXPECT_NEAR(mean({0, 0, 0, 1, 0.75, 1, 0.75, 0}), 0.8 * 2 / 3, kOfPoints);  // two thirds
     EXPECT_NEAR(mean({0, 0, 0, 1, 0.4f, 1, 0.4f, 0}), 0.8, 1e-12);              // all of it
     EXPECT_NEAR(mean({0, 0, 0, 1, 2, 1, 2, 0}), 0.4, kOfPoints);                // repeated
+}
+
+/// A picture that cannot be read is no white surface.
+TEST(GltfMaterials, UnreadableTexturesAreOfMediumReflectance) {
+    GltfText gltf;
+    gltf.add_texture("RIFF....WEBPVP8L");
+    gltf.textures.push_back(R"({"extensions": {"KHR_texture_basisu": {"source": 0}}})");
+    for (const int texture : {0, 1}) {
+        gltf.add_material(
+            pbr(fmt::format(R"("baseColorTexture": {{"index": {0}}}, "baseColorFactor": [1, 1, 0.6, 1],
+                                              "metallicRoughnessTexture": {{"index": {0}}})",
+                            texture)));
+        gltf.add_node(fmt::format(R"("mesh": {})", gltf.add_mesh(gltf_square(), texture)));
+    }
+    const SceneFile file = read_gltf(gltf.text());
+    ASSERT_EQ(file.scene.materials.size(), 2u);
+    for (const NamedMaterial& material : file.scene.materials) {
+        const auto& plastic = std::get<Plastic>(material.material);  // no metal
+        const double coat = Plastic({Rgb{}, 1.5, 1}).mean_reflectance().luminance();
+        EXPECT_NEAR(plastic.mean_reflectance()[0], coat + (1 - coat) * 0.5, 1e-9);
+        EXPECT_NEAR(plastic.mean_reflectance()[2], coat + (1 - coat) * 0.3, 1e-9);
+    }
+    EXPECT_TRUE(warns_of(file, "a colour counts as 0.5 times its factor"));
 }
 
 // Lights

@@ -209,12 +209,141 @@ TEST(GltfScene, TakesSensorsAndOptionsBesideTheFile) {
     }
 }
 
-// Wrong files
-
 GltfText square_scene() {
     GltfText gltf;
     gltf.add_node(fmt::format(R"("mesh": {})", gltf.add_mesh(gltf_square(), -1)));
     return gltf;
+}
+
+/// What a surface has beside its shape does not matter where it is wrong.
+TEST(GltfScene, NormalsThatAreNoNumbersCountAsMissing) {
+    Mesh square = gltf_square();
+    square.normals.assign(4, normalized(Vec3{0.2, 1, 0}));
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    for (const double wrong : {nan, std::numeric_limits<double>::infinity(), 0.0}) {
+        square.normals[3] = {wrong, wrong, wrong};
+        GltfText gltf;
+        gltf.add_node(fmt::format(R"("mesh": {})", gltf.add_mesh(square, -1)));
+        const Mesh mesh = mesh_of(read_gltf(gltf.text()));
+        ASSERT_EQ(mesh.normals.size(), 4u);
+        EXPECT_EQ(mesh.normals[3], Vec3{});
+        expect_near(mesh.normals[0], normalized(Vec3{0.2, 0, 1}));
+    }
+}
+
+TEST(GltfScene, NormalsThatCannotBeReadAreLeftOut) {
+    GltfText gltf;
+    Mesh square = gltf_square();
+    square.normals.assign(3, {0, 1, 0});  // for four vertices
+    gltf.add_node(fmt::format(R"("mesh": {})", gltf.add_mesh(square, -1)));
+    const SceneFile file = read_gltf(gltf.text());
+    EXPECT_TRUE(mesh_of(file).normals.empty());
+    EXPECT_TRUE(contains(joined_warnings(file), "its NORMAL is left out (it has 3 elements for 4 vertices)."))
+        << joined_warnings(file);
+}
+
+TEST(GltfScene, NormalsThatLeanAwayAreLeftOut) {
+    for (const double angle_deg : {44.0, 46.0}) {
+        Mesh square = gltf_square();
+        const double angle = angle_deg * kPi / 180;
+        square.normals.assign(4, {std::sin(angle), std::cos(angle), 0});
+        GltfText gltf;
+        gltf.add_node(fmt::format(R"("mesh": {})", gltf.add_mesh(square, -1)));
+        const SceneFile file = read_gltf(gltf.text());
+        EXPECT_EQ(mesh_of(file).normals.empty(), angle_deg > 45);
+        EXPECT_EQ(contains(joined_warnings(file), "normals of some triangles lean"), angle_deg > 45);
+    }
+}
+
+// EXT_mesh_gpu_instancing
+
+/// The square of square_scene(), repeated. `attributes`: of the extension.
+GltfText repeated_square(const std::string& attributes, GltfText gltf) {
+    gltf.nodes[0] = fmt::format(
+        R"({{"mesh": 0, "name": "tile", "translation": [0, 1, 0], "extensions":
+            {{"EXT_mesh_gpu_instancing": {{"attributes": {{{}}}}}}}}})",
+        attributes);
+    return gltf;
+}
+
+TEST(GltfScene, RepeatsMeshesAsTheirExtensionSays) {
+    GltfText gltf = square_scene();
+    const int places = gltf.add_vectors({{0, 0, 0}, {5, 0, 0}, {0, 0, 7}});
+    const int sizes = gltf.add_vectors({{1, 1, 1}, {2, 1, 1}, {1, 1, 1}});
+    const float half = std::sqrt(0.5f);  // the last one by 90 degrees about x
+    const int turns =
+        gltf.add_accessor(std::vector<float>{0, 0, 0, 1, 0, 0, 0, 1, half, 0, 0, half}, 4, 5126);
+    const SceneFile file = read_gltf(
+        repeated_square(
+            fmt::format(R"("TRANSLATION": {}, "SCALE": {}, "ROTATION": {})", places, sizes, turns), gltf)
+            .text());
+    ASSERT_EQ(file.scene.objects.size(), 3u);
+    EXPECT_EQ(file.scene.objects[0].name, "tile");
+    EXPECT_EQ(file.scene.objects[2].name, "tile_3");
+    expect_near(mesh_of(file, 0).vertices[0], {-1, 1, 1});
+    expect_near(mesh_of(file, 1).vertices[0], {5 - 2, 1, 1});
+    // Turned: its front, y of glTF, points along z of glTF, which is -y here.
+    expect_near(front_of(mesh_of(file, 2)), {0, -1, 0});
+    expect_near(mesh_of(file, 2).vertices[0], {-1, -7, 1 + 1}, 1e-6);
+}
+
+TEST(GltfScene, RepeatsNeitherLightsNorCameras) {
+    GltfText gltf = square_scene();
+    const int places = gltf.add_vectors({{0, 0, 0}, {5, 0, 0}});
+    gltf.cameras.push_back(
+        R"({"type": "perspective", "perspective": {"yfov": 0.5, "aspectRatio": 2, "znear": 0.1}})");
+    gltf = repeated_square(fmt::format(R"("TRANSLATION": {})", places), gltf);
+    gltf.nodes[0].insert(1, R"("camera": 0, )");
+    const SceneFile file = read_gltf(gltf.text());
+    EXPECT_EQ(file.scene.objects.size(), 2u);
+    EXPECT_EQ(file.sensors.size(), 1u);
+}
+
+TEST(GltfScene, RefusesWrongRepetitions) {
+    GltfText gltf = square_scene();
+    const int two = gltf.add_vectors({{0, 0, 0}, {5, 0, 0}}),
+              three = gltf.add_vectors({{1, 1, 1}, {1, 1, 1}, {1, 1, 1}});
+    EXPECT_EQ(
+        gltf_refusal(
+            repeated_square(fmt::format(R"("TRANSLATION": {}, "SCALE": {})", two, three), gltf).text()),
+        "s.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.SCALE: it has 3 elements, another attribute 2.");
+    const int far = gltf.add_vectors({{2e9, 0, 0}});
+    EXPECT_EQ(
+        gltf_refusal(repeated_square(fmt::format(R"("TRANSLATION": {})", far), gltf).text()),
+        "s.gltf: nodes[0].extensions.EXT_mesh_gpu_instancing.TRANSLATION: an element has a number that is "
+        "not from -1e9 to 1e9.");
+}
+
+// Wrong files
+
+TEST(GltfScene, ReadsDataWhateverTheParametersOfItsUri) {
+    const std::string text = square_scene().text();
+    const auto with_header = [&](const std::string& header) {
+        const std::size_t at = text.find("data:application"), comma = text.find(',', at);
+        return text.substr(0, at) + header + text.substr(comma);
+    };
+    for (const std::string header :
+         {"data:application/octet-stream;charset=utf-8;base64", "data:;base64",
+          "data:application/x-my-own;a=b;base64", "data:application/gltf-buffer;base64"})
+        EXPECT_EQ(read_gltf(with_header(header)).scene.objects.size(), 1u) << header;
+    const std::string refusal = gltf_refusal(with_header("data:application/octet-stream"));
+    EXPECT_LT(refusal.size(), 300u) << "no message has the data in it: " << refusal;
+}
+
+TEST(GltfScene, NamesVersion1) {
+    const std::string message =
+        "s.gltf: this is glTF 1.0, which differs from glTF 2.0, the version that is read. Export the scene "
+        "as "
+        "glTF 2.0.";
+    EXPECT_EQ(gltf_refusal(R"({"asset": {"version": "1.0"}, "scenes": {"s": {"nodes": []}}})"), message);
+    EXPECT_EQ(
+        gltf_refusal(R"({"asset": {"version": "1.1"}, "buffers": {"b": {"byteLength": 4, "uri": "b.bin"}}})"),
+        message);
+    EXPECT_EQ(gltf_refusal(R"({"meshes" : {"m": {"primitives": []}}})"), message);
+    EXPECT_NE(gltf_refusal(R"({"meshes": []})"), message);
+    std::string binary = "glTF";
+    binary += std::string("\1\0\0\0\x14\0\0\0\0\0\0\0\0\0\0\0", 16);
+    EXPECT_EQ(gltf_refusal(binary), message);
 }
 
 TEST(GltfScene, RefusesWrongReferences) {

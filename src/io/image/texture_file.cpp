@@ -58,6 +58,17 @@ Texture read_texture(std::string_view content, const std::string& name) {
     return texture;
 }
 
+bool has_holes(const Texture& texture) {
+    constexpr std::uint8_t clear = 25, opaque = 230;
+    constexpr double most_between = 0.1, least_clear = 0.001;
+    const auto share = [&](const auto& is_one) {
+        const auto count = std::ranges::count_if(texture.texels, [&](const auto& t) { return is_one(t[3]); });
+        return static_cast<double>(count) / static_cast<double>(texture.texels.size());
+    };
+    return share([](std::uint8_t a) { return a > clear && a < opaque; }) <= most_between &&
+           share([](std::uint8_t a) { return a <= clear; }) >= least_clear;
+}
+
 double linear_of_srgb(std::uint8_t value) {
     static const std::array<double, 256> table = srgb_table();
     return table[value];

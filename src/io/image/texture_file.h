@@ -18,6 +18,10 @@ struct Texture {
     const std::array<std::uint8_t, 4>& at(double u, double v) const;
 };
 
+/// Whether the alpha of nearly all texels is nearly 0 or 1, and of some nearly 0: it cuts holes, as of leaves
+/// and grilles.
+bool has_holes(const Texture& texture);
+
 /// `name` is used in messages. Throws InputError for other formats, and damaged or too large files.
 Texture read_texture(std::string_view content, const std::string& name);
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -96,11 +97,6 @@ Elements elements_of(const File& file, int view, std::size_t offset, const Eleme
     return elements;
 }
 
-double checked(const File& file, double value, std::size_t index, std::string_view where) {
-    if (!std::isfinite(value)) file.fail(where, fmt::format("element {} is not a finite number.", index));
-    return value;
-}
-
 /// Replaces some of the elements, as sparse accessors do.
 void put_sparse(const File& file, const tinygltf::Accessor& accessor, const Elements& form,
                 const std::string& where, std::vector<double>& numbers) {
@@ -121,8 +117,7 @@ void put_sparse(const File& file, const tinygltf::Accessor& accessor, const Elem
         if (!(index >= 0 && index < static_cast<double>(accessor.count)))
             file.fail(of, fmt::format("index {} of its {} elements.", index, accessor.count));
         for (std::size_t c = 0; c < form.components; ++c)
-            numbers[static_cast<std::size_t>(index) * form.components + c] =
-                checked(file, number_at(values, i, c), i, of);
+            numbers[static_cast<std::size_t>(index) * form.components + c] = number_at(values, i, c);
     }
 }
 
@@ -135,8 +130,7 @@ std::vector<double> read_numbers(const File& file, const tinygltf::Accessor& acc
             elements_of(file, accessor.bufferView, accessor.byteOffset, form, accessor.count, where);
         numbers.reserve(accessor.count * form.components);
         for (std::size_t i = 0; i < accessor.count; ++i) {
-            for (std::size_t c = 0; c < form.components; ++c)
-                numbers.push_back(checked(file, number_at(elements, i, c), i, where));
+            for (std::size_t c = 0; c < form.components; ++c) numbers.push_back(number_at(elements, i, c));
         }
     } else {
         if (accessor.count > kMostZeros)
@@ -149,7 +143,8 @@ std::vector<double> read_numbers(const File& file, const tinygltf::Accessor& acc
 
 }  // namespace
 
-std::vector<double> read_vectors(const File& file, int index, int components, std::string_view part) {
+std::vector<double> read_vectors(const File& file, int index, int components, std::string_view part,
+                                 NotFinite others) {
     const tinygltf::Accessor& accessor = element(file, file.model.accessors, index, "accessors", part);
     const std::string where = fmt::format("accessors[{}] ({})", index, part);
     expect_component_type(file, accessor.componentType, where);
@@ -159,7 +154,14 @@ std::vector<double> read_vectors(const File& file, int index, int components, st
     }
     const Elements form{
         {}, 0, accessor.componentType, static_cast<std::size_t>(components), accessor.normalized};
-    return read_numbers(file, accessor, form, where);
+    std::vector<double> numbers = read_numbers(file, accessor, form, where);
+    if (others == NotFinite::kept) return numbers;
+    const auto wrong = std::ranges::find_if_not(numbers, [](double n) { return std::isfinite(n); });
+    if (wrong != numbers.end()) {
+        const auto element = (wrong - numbers.begin()) / components;
+        file.fail(where, fmt::format("element {} is not a finite number.", element));
+    }
+    return numbers;
 }
 
 std::vector<std::uint32_t> read_indices(const File& file, int index, std::size_t limit,

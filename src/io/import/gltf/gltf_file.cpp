@@ -30,8 +30,18 @@ bool is_within(const fs::path& folder, const fs::path& path) {
 
 fs::path folder_of(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : "."; }
 
+/// The data URI in a path that the parser has made of one whose header it does not know; else empty.
+std::string_view data_uri_in(std::string_view path, const FileAccess& access) {
+    const std::string folder = access.folder.string();
+    if (!path.starts_with(folder)) return {};
+    path.remove_prefix(folder.size());
+    if (path.starts_with('/')) path.remove_prefix(1);
+    return is_data_uri(path) ? path : std::string_view{};
+}
+
 bool file_exists(const std::string& path, void* data) {
     auto& access = *static_cast<FileAccess*>(data);
+    if (!data_uri_in(path, access).empty()) return true;
     std::error_code error;
     if (!is_within(access.folder, path)) {
         // The parser also looks in the folder of the process; only names beside the scene are the file's own.
@@ -45,10 +55,17 @@ bool file_exists(const std::string& path, void* data) {
 std::string same_path(const std::string& path, void*) { return path; }
 
 bool read_file(std::vector<unsigned char>* bytes, std::string* error, const std::string& path, void* data) {
+    auto& access = *static_cast<FileAccess*>(data);
     try {
+        if (std::string uri(data_uri_in(path, access)); !uri.empty()) {
+            std::ranges::replace(uri, ' ', '+');  // the parser decodes paths, in which + is a blank
+            const auto content = data_of_uri(uri);
+            if (content) bytes->assign(content->begin(), content->end());
+            return content.has_value();
+        }
         const std::string content = read_whole_file(path);
         bytes->assign(content.begin(), content.end());
-        static_cast<FileAccess*>(data)->read.emplace_back(path);
+        access.read.emplace_back(path);
         return true;
     } catch (const std::exception& failure) {
         *error = failure.what();
@@ -98,11 +115,30 @@ std::size_t nesting_of(std::string_view json) {
     return deepest;
 }
 
-/// One line of the parser's messages.
-std::string one_line(std::string text) {
-    while (!text.empty() && (text.back() == '\n' || text.back() == ' ')) text.pop_back();
+/// The parser's messages as one line. Long words, such as the data in a file, are shortened.
+std::string one_line(std::string_view messages) {
+    constexpr std::size_t kLongest = 80;
+    std::string text(messages), line;
     std::ranges::replace(text, '\n', ' ');
-    return text;
+    std::string_view rest = text;
+    for (std::string_view word = next_word(rest); !word.empty(); word = next_word(rest)) {
+        line += line.empty() ? "" : " ";
+        line += word.substr(0, kLongest);
+        if (word.size() > kLongest) line += "...";
+    }
+    return line;
+}
+
+/// Whether a file is of version 1: it says so, or it cannot be read and its list of meshes is a table.
+bool is_version_1(std::string_view content, const tinygltf::Model& model, bool is_read) {
+    constexpr std::size_t kVersionAt = 4;
+    if (content.starts_with("glTF")) return content.size() > kVersionAt && content[kVersionAt] == 1;
+    constexpr std::string_view kMeshes = "\"meshes\"", kBlanks = " \t\r\n:";
+    const std::size_t meshes = content.find(kMeshes);
+    const std::size_t value =
+        meshes == content.npos ? meshes : content.find_first_not_of(kBlanks, meshes + kMeshes.size());
+    return model.asset.version.starts_with("1.") ||
+           (!is_read && value != content.npos && content[value] == '{');
 }
 
 }  // namespace
@@ -146,6 +182,15 @@ std::string_view File::bytes_of_view(int index, std::string_view part) const {
     return {reinterpret_cast<const char*>(data.data()) + view.byteOffset, view.byteLength};
 }
 
+bool is_data_uri(std::string_view uri) { return uri.starts_with("data:"); }
+
+std::optional<std::string> data_of_uri(std::string_view uri) {
+    constexpr std::string_view kBase64 = ";base64";
+    const std::size_t comma = uri.find(',');
+    if (comma == uri.npos || !uri.substr(0, comma).ends_with(kBase64)) return std::nullopt;
+    return from_base64(uri.substr(comma + 1));
+}
+
 File parse(std::string_view content, const fs::path& path) {
     File file;
     file.path = path;
@@ -176,6 +221,11 @@ File parse(std::string_view content, const fs::path& path) {
                   fmt::format("the file {} lies outside of the scene's folder. Allowed: files in the folder "
                               "of the scene and below it.",
                               in_quotes(access.refused)));
+    }
+    if (is_version_1(content, file.model, is_read)) {
+        file.fail("",
+                  "this is glTF 1.0, which differs from glTF 2.0, the version that is read. Export the scene "
+                  "as glTF 2.0.");
     }
     if (!is_read) {
         // Without the data of such an extension the parser finds accessors without a buffer.
@@ -219,14 +269,18 @@ Rgb rgb_of(const std::vector<double>& numbers, const Rgb& otherwise) {
     return numbers.size() < kBands ? otherwise : Rgb{{numbers[0], numbers[1], numbers[2]}};
 }
 
-Rgb rgb_in(const tinygltf::Value& table, const std::string& key, const Rgb& otherwise) {
+std::vector<double> numbers_in(const tinygltf::Value& table, const std::string& key) {
     const tinygltf::Value& value = table.Get(key);
     std::vector<double> numbers;
     for (std::size_t i = 0; value.IsArray() && i < value.ArrayLen(); ++i) {
         const tinygltf::Value& component = value.Get(static_cast<int>(i));
         if (component.IsNumber()) numbers.push_back(component.GetNumberAsDouble());
     }
-    return rgb_of(numbers, otherwise);
+    return numbers;
+}
+
+Rgb rgb_in(const tinygltf::Value& table, const std::string& key, const Rgb& otherwise) {
+    return rgb_of(numbers_in(table, key), otherwise);
 }
 
 }  // namespace stilb::io::gltf

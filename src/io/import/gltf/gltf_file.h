@@ -34,6 +34,10 @@ struct File {
     std::string_view bytes_of_view(int view, std::string_view part) const;
 };
 
+bool is_data_uri(std::string_view uri);
+/// The bytes in a data URI, whatever parameters it has [RFC 2397]; nothing where they are not in base64.
+std::optional<std::string> data_of_uri(std::string_view uri);
+
 /// Parses .gltf or .glb, by its first bytes. Throws InputError.
 File parse(std::string_view content, const std::filesystem::path& path);
 
@@ -50,9 +54,12 @@ const T& element(const File& file, const std::vector<T>& list, int index, std::s
 
 // Accessors: numbers in buffers.
 
+/// What becomes of numbers that are not finite.
+enum class NotFinite { refused, kept };
 /// Vectors of `components` numbers one after another; integers are scaled where the accessor is normalized.
-/// Throws where the accessor has another type, reaches beyond its buffer, or has a number that is not finite.
-std::vector<double> read_vectors(const File& file, int accessor, int components, std::string_view part);
+/// Throws where the accessor has another type or reaches beyond its buffer.
+std::vector<double> read_vectors(const File& file, int accessor, int components, std::string_view part,
+                                 NotFinite others = NotFinite::refused);
 /// Unsigned integers, all below `limit`.
 std::vector<std::uint32_t> read_indices(const File& file, int accessor, std::size_t limit,
                                         std::string_view part);
@@ -66,6 +73,8 @@ double number_in(const tinygltf::Value& table, const std::string& key, double ot
 int index_in(const tinygltf::Value& table, const std::string& key);
 /// A texture that the table refers to; its index is -1 where there is none.
 tinygltf::TextureInfo texture_in(const tinygltf::Value& table, const std::string& key);
+/// The numbers of a list; empty where it is missing.
+std::vector<double> numbers_in(const tinygltf::Value& table, const std::string& key);
 Rgb rgb_in(const tinygltf::Value& table, const std::string& key, const Rgb& otherwise);
 /// The three first numbers; `otherwise` where there are fewer.
 Rgb rgb_of(const std::vector<double>& numbers, const Rgb& otherwise);

@@ -163,10 +163,8 @@ class LightReader {
         const tinygltf::Value& uri = profile.Get("uri");
         if (!uri.IsString()) file_.fail(part, "it has neither a \"uri\" nor a \"bufferView\".");
         const std::string& text = uri.Get<std::string>();
-        if (!text.starts_with("data:")) return {file_.read_beside(text, part), text};
-        const std::size_t comma = text.find(";base64,");
-        if (comma == std::string::npos) file_.fail(part, "its data URI is not in base64.");
-        const auto content = from_base64(std::string_view(text).substr(comma + 8));
+        if (!is_data_uri(text)) return {file_.read_beside(text, part), text};
+        const auto content = data_of_uri(text);
         if (!content) file_.fail(part, "its data URI is not in base64.");
         return {*content, file_.path.string() + ": " + part};
     }
@@ -213,13 +211,15 @@ void add_camera(const File& file, const PlacedNode& node, ImportedScene& scene) 
 
 void add_lights(File& file, const std::vector<PlacedNode>& nodes, ImportedScene& scene) {
     LightReader reader(file, scene);
-    for (const PlacedNode& node : nodes) reader.add(node);
+    for (const PlacedNode& node : nodes) {
+        if (!node.is_copy) reader.add(node);
+    }
     reader.add_distant();
 }
 
 void add_cameras(const File& file, const std::vector<PlacedNode>& nodes, ImportedScene& scene) {
     for (const PlacedNode& node : nodes) {
-        if (node.node->camera >= 0) add_camera(file, node, scene);
+        if (node.node->camera >= 0 && !node.is_copy) add_camera(file, node, scene);
     }
 }
 

@@ -12,14 +12,23 @@
 namespace stilb::io::gltf {
 namespace {
 
+constexpr const char* kSpecularGlossiness = "KHR_materials_pbrSpecularGlossiness";
+
+/// What a texture counts as that cannot be read: a surface of medium reflectance, no metal.
+constexpr std::array<double, 4> kUnreadColour{0.5, 0.5, 0.5, 1}, kUnreadRoughness{1, 1, 0, 1};
+
+/// The colour of a surface, and its alpha.
+struct BaseColour {
+    tinygltf::TextureInfo texture;
+    Rgb factor;
+    double alpha = 1;
+};
+
 /// Extensions of materials that are read, wholly or with a warning of their own.
-constexpr std::array<std::string_view, 7> kMaterialExtensions{"KHR_materials_transmission",
-                                                              "KHR_materials_ior",
-                                                              "KHR_materials_specular",
-                                                              "KHR_materials_volume",
-                                                              "KHR_materials_emissive_strength",
-                                                              "KHR_materials_unlit",
-                                                              "KHR_texture_transform"};
+constexpr std::array<std::string_view, 8> kMaterialExtensions{
+    "KHR_materials_transmission", kSpecularGlossiness,    "KHR_materials_ior",
+    "KHR_materials_specular",     "KHR_materials_volume", "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",        "KHR_texture_transform"};
 
 class MaterialReader {
   public:
@@ -36,16 +45,25 @@ class MaterialReader {
         const tinygltf::Material& material = file_.model.materials[static_cast<std::size_t>(index)];
         part_ = fmt::format("materials[{}]", index);
         name_ = material.name.empty() ? fmt::format("material_{}", index) : material.name;
-        const MeanSurface surface = means(material, SurfacePoints(primitives_, index));
+        const BaseColour base = base_of(material);
+        SurfacePoints points(primitives_, index);
+        std::optional<MaskedTexture> map = base_map(material, base);
+        const double covered = map ? points.leave_holes_out(*map, uv_transform(base.texture)) : 1;
+        MeanSurface surface = means(material, base, points);
+        if (map && map->least_alpha > 0) surface.is_blended = false;
         warn_of_extensions(material);
-        std::optional<FaceTexture> texture = face_texture(material, surface);
-        if (!texture && is_invisible(material, surface)) return std::nullopt;
+        if (!(covered > 0) || is_invisible(material, surface)) {
+            warn("its alpha is nearly 0 or below alphaCutoff; its surfaces are left out.");
+            return std::nullopt;
+        }
+        std::optional<FaceTexture> texture;
+        if (map) texture = face_texture(std::move(*map), base, surface, covered);
         SurfaceMaterial added{scene_.add_material(name_, material_of(surface, name_, scene_.warnings)), {}};
         if (surface.emission_cd_m2.luminance() > 0)
             scene_.set_emission(added.id, {surface.emission_cd_m2, material.doubleSided});
         if (texture) {
             scene_.set_texture(added.id, std::move(*texture));
-            added.texture = uv_transform(material.pbrMetallicRoughness.baseColorTexture);
+            added.texture = uv_transform(base.texture);
         }
         return added;
     }
@@ -71,27 +89,61 @@ class MaterialReader {
         return rgb;
     }
 
-    Rgb base_factor(const tinygltf::Material& material) const {
-        const Rgb factor = rgb_of(material.pbrMetallicRoughness.baseColorFactor, Rgb::grey(1));
-        return checked(factor, 1, "baseColorFactor");
+    BaseColour base_of(const tinygltf::Material& material) const {
+        if (const auto* table = find_extension(material.extensions, kSpecularGlossiness)) {
+            const std::vector<double> factors = numbers_in(*table, "diffuseFactor");
+            return {texture_in(*table, "diffuseTexture"), factor_of(factors, "diffuseFactor"),
+                    alpha_of(factors, "diffuseFactor")};
+        }
+        const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+        return {pbr.baseColorTexture, factor_of(pbr.baseColorFactor, "baseColorFactor"),
+                alpha_of(pbr.baseColorFactor, "baseColorFactor")};
     }
 
-    MeanSurface means(const tinygltf::Material& material, const SurfacePoints& points) {
-        const tinygltf::PbrMetallicRoughness& pbr = material.pbrMetallicRoughness;
+    Rgb factor_of(const std::vector<double>& factors, std::string_view key) const {
+        return checked(rgb_of(factors, Rgb::grey(1)), 1, key);
+    }
+    double alpha_of(const std::vector<double>& factors, std::string_view key) const {
+        return factors.size() == 4 ? checked(factors[3], 0, 1, key) : 1;
+    }
+
+    MeanSurface means(const tinygltf::Material& material, const BaseColour& base,
+                      const SurfacePoints& points) {
         MeanSurface surface;
-        const auto colour = textures_.mean(pbr.baseColorTexture, true, points, part_);
-        const auto rough = textures_.mean(pbr.metallicRoughnessTexture, false, points, part_);
-        surface.base = base_factor(material) * Rgb{{colour[0], colour[1], colour[2]}};
+        const auto colour = textures_.mean(base.texture, true, points, part_, kUnreadColour);
+        surface.base = base.factor * Rgb{{colour[0], colour[1], colour[2]}};
         surface.is_blended = material.alphaMode == "BLEND";
-        if (pbr.baseColorFactor.size() == 4)
-            surface.alpha = checked(pbr.baseColorFactor[3], 0, 1, "baseColorFactor") * colour[3];
-        surface.metallic = checked(pbr.metallicFactor, 0, 1, "metallicFactor") * rough[2];
-        surface.roughness = checked(pbr.roughnessFactor, 0, 1, "roughnessFactor") * rough[1];
+        surface.alpha = base.alpha * colour[3];
+        if (const auto* table = find_extension(material.extensions, kSpecularGlossiness))
+            read_specular_glossiness(*table, points, surface);
+        else
+            read_metal(material.pbrMetallicRoughness, points, surface);
         read_extensions(material, points, surface);
         read_emission(material, points, surface);
         if (material.normalTexture.index >= 0)
             warn("its normalTexture is left out: the surface is as smooth as its mesh.");
         return surface;
+    }
+
+    void read_metal(const tinygltf::PbrMetallicRoughness& pbr, const SurfacePoints& points,
+                    MeanSurface& surface) {
+        const auto rough =
+            textures_.mean(pbr.metallicRoughnessTexture, false, points, part_, kUnreadRoughness);
+        surface.metallic = checked(pbr.metallicFactor, 0, 1, "metallicFactor") * rough[2];
+        surface.roughness = checked(pbr.roughnessFactor, 0, 1, "roughnessFactor") * rough[1];
+    }
+
+    void read_specular_glossiness(const tinygltf::Value& table, const SurfacePoints& points,
+                                  MeanSurface& surface) {
+        constexpr std::array<double, 4> unread{0.04, 0.04, 0.04, 0.5};  // like plastic, half glossy
+        const auto map =
+            textures_.mean(texture_in(table, "specularGlossinessTexture"), true, points, part_, unread);
+        const Rgb specular = checked(rgb_in(table, "specularFactor", Rgb::grey(1)), 1, "specularFactor") *
+                             Rgb{{map[0], map[1], map[2]}};
+        const double glossiness =
+            checked(number_in(table, "glossinessFactor", 1), 0, 1, "glossinessFactor") * map[3];
+        surface.roughness = 1 - glossiness;
+        set_specular(specular, surface);
     }
 
     void read_extensions(const tinygltf::Material& material, const SurfacePoints& points,
@@ -116,8 +168,12 @@ class MaterialReader {
         if (const auto* table = find_extension(material.extensions, "KHR_materials_transmission")) {
             const auto share =
                 textures_.mean(texture_in(*table, "transmissionTexture"), false, points, part_);
-            surface.transmission =
+            const double factor =
                 checked(number_in(*table, "transmissionFactor", 0), 0, 1, "transmissionFactor") * share[0];
+            surface.transmission = (1 - surface.metallic) * factor;
+            if (surface.transmission < factor)
+                warn(
+                    "its transmission is that of its share without metal, because metals transmit no light.");
         }
         if (const auto* table = find_extension(material.extensions, "KHR_materials_volume")) {
             surface.is_solid = number_in(*table, "thicknessFactor", 0) > 0;
@@ -152,24 +208,32 @@ class MaterialReader {
         }
     }
 
-    /// The texture of the base colour; nothing where its mean counts.
-    std::optional<FaceTexture> face_texture(const tinygltf::Material& material, const MeanSurface& surface) {
-        const std::optional<TextureMap> map =
-            textures_.map_of(material.pbrMetallicRoughness.baseColorTexture, part_);
+    /// The texture of the base colour, in which alpha may cut holes; nothing where there is none.
+    std::optional<MaskedTexture> base_map(const tinygltf::Material& material, const BaseColour& base) {
+        std::optional<TextureMap> map = textures_.map_of(base.texture, part_);
         if (!map) return std::nullopt;
+        MaskedTexture masked{std::move(*map)};
+        constexpr double half = 0.5;
+        if (material.alphaMode == "MASK")
+            masked.least_alpha = material.alphaCutoff / base.alpha;
+        else if (material.alphaMode == "BLEND" && base.alpha >= 1 && has_holes(*masked.map.picture))
+            masked.least_alpha = half;
+        return masked;
+    }
+
+    /// What the texture of the base colour changes on the faces: nothing where its mean counts and it has no
+    /// holes.
+    std::optional<FaceTexture> face_texture(MaskedTexture map, const BaseColour& base,
+                                            const MeanSurface& surface, double covered) {
+        map.shows_colours = shows_textures_;
         if (!shows_textures_) {
             scene_.remark_mean_texture(name_);
-            return std::nullopt;
-        }
-        if (surface.emission_cd_m2.luminance() > 0 || !shows_base(surface)) {
+        } else if (surface.emission_cd_m2.luminance() > 0 || !shows_base(surface)) {
             warn("it shines or is transparent: its texture counts by its mean.");
-            return std::nullopt;
+            map.shows_colours = false;
         }
-        const std::vector<double>& factors = material.pbrMetallicRoughness.baseColorFactor;
-        const double alpha = factors.size() == 4 ? factors[3] : 1;
-        const double least_alpha = material.alphaMode == "MASK" ? material.alphaCutoff / alpha : 0;
-        return FaceTexture{{*map, least_alpha},
-                           [surface, factor = base_factor(material), name = name_](const Rgb& colour) {
+        if (!map.shows_colours && covered >= 1) return std::nullopt;
+        return FaceTexture{std::move(map), [surface, factor = base.factor, name = name_](const Rgb& colour) {
                                MeanSurface face = surface;
                                face.base = factor * colour;
                                GroupedWarnings as_of_the_mean;  // which the scene has already
@@ -177,15 +241,10 @@ class MaterialReader {
                            }};
     }
 
-    bool is_invisible(const tinygltf::Material& material, const MeanSurface& surface) {
+    static bool is_invisible(const tinygltf::Material& material, const MeanSurface& surface) {
         constexpr double kFaintest = 0.02;
-        if (material.alphaMode == "MASK" && surface.alpha < material.alphaCutoff) {
-            warn("its mean alpha is below alphaCutoff; its surfaces are left out.");
-            return true;
-        }
-        if (material.alphaMode != "BLEND" || surface.alpha >= kFaintest) return false;
-        warn("its alpha is nearly 0; its surfaces are left out.");
-        return true;
+        if (material.alphaMode == "MASK") return surface.alpha < material.alphaCutoff;
+        return surface.is_blended && surface.alpha < kFaintest;
     }
 
     File& file_;

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
+#include <span>
 #include <utility>
 
 #include "io/scene/toml.h"
 #include "scene/instances.h"
+#include "stilb/error.h"
 
 namespace stilb::io::gltf {
 namespace {
@@ -25,7 +28,7 @@ std::vector<double> checked_numbers(const File& file, const std::vector<double>&
     return numbers;
 }
 
-geometry::Transform rotation_of(const File& file, const std::vector<double>& q, std::string_view part) {
+geometry::Transform rotation_of(const File& file, std::span<const double> q, std::string_view part) {
     const double squared = q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3];
     if (!(squared > 1e-12)) file.fail(part, "\"rotation\" is no quaternion: its length is 0.");
     const double s = 2 / squared;
@@ -57,6 +60,55 @@ geometry::Transform local_transform(const File& file, const tinygltf::Node& node
     return transform;
 }
 
+/// Places the copies of a node's mesh among themselves (EXT_mesh_gpu_instancing).
+class CopyPlaces {
+  public:
+    CopyPlaces(const File& file, const tinygltf::Value& extension, std::string part)
+        : file_(file), part_(std::move(part)) {
+        const tinygltf::Value& attributes = extension.Get("attributes");
+        translations_ = read(attributes, "TRANSLATION", 3);
+        rotations_ = read(attributes, "ROTATION", 4);
+        scales_ = read(attributes, "SCALE", 3);
+    }
+
+    std::size_t count() const { return count_.value_or(0); }
+
+    geometry::Transform at(std::size_t i) const {
+        geometry::Transform place;
+        if (!scales_.empty()) {
+            const double* const s = scales_.data() + 3 * i;
+            place = {{s[0], 0, 0}, {0, s[1], 0}, {0, 0, s[2]}, {}};
+        }
+        if (!rotations_.empty())
+            place = compose(rotation_of(file_, std::span(rotations_).subspan(4 * i, 4), part_), place);
+        if (!translations_.empty())
+            place.translation = {translations_[3 * i], translations_[3 * i + 1], translations_[3 * i + 2]};
+        return place;
+    }
+
+  private:
+    std::vector<double> read(const tinygltf::Value& attributes, const std::string& name, int components) {
+        if (!attributes.IsObject() || !attributes.Has(name)) return {};
+        const std::string part = part_ + "." + name;
+        std::vector<double> numbers = read_vectors(file_, index_in(attributes, name), components, part);
+        const std::size_t found = numbers.size() / static_cast<std::size_t>(components);
+        if (found != count_.value_or(found))
+            file_.fail(part, fmt::format("it has {} elements, another attribute {}.", found, *count_));
+        constexpr std::size_t kMostCopies = 200'000;
+        if (found > kMostCopies)
+            file_.fail(part, fmt::format("it has {} copies. Allowed: up to {}.", found, kMostCopies));
+        if (!std::ranges::all_of(numbers, [](double n) { return kCoordinate.contains(n); }))
+            file_.fail(part, "an element has a number that is not from -1e9 to 1e9.");
+        count_ = found;
+        return numbers;
+    }
+
+    const File& file_;
+    std::string part_;
+    std::optional<std::size_t> count_;
+    std::vector<double> translations_, rotations_, scales_;
+};
+
 class NodeWalk {
   public:
     explicit NodeWalk(const File& file) : file_(file), is_visited_(file.model.nodes.size()) {}
@@ -71,13 +123,22 @@ class NodeWalk {
         if (level > kMostLevels)
             file_.fail(part, fmt::format("it lies more than {} levels below the scene.", kMostLevels));
         const geometry::Transform to_world = compose(parent, local_transform(file_, node, part));
-        nodes.push_back({&node, part, to_world});
+        const auto* const copies = find_extension(node.extensions, "EXT_mesh_gpu_instancing");
+        nodes.push_back({&node, part, to_world, copies == nullptr ? node.mesh : -1});
+        if (copies != nullptr && node.mesh >= 0) add_copies(node, part, to_world, *copies);
         for (const int child : node.children) visit(child, to_world, part, level + 1);
     }
 
     std::vector<PlacedNode> nodes;
 
   private:
+    void add_copies(const tinygltf::Node& node, const std::string& part, const geometry::Transform& to_world,
+                    const tinygltf::Value& extension) {
+        const CopyPlaces places(file_, extension, part + ".extensions.EXT_mesh_gpu_instancing");
+        for (std::size_t i = 0; i < places.count(); ++i)
+            nodes.push_back({&node, part, compose(to_world, places.at(i)), node.mesh, true});
+    }
+
     const File& file_;
     std::vector<bool> is_visited_;
 };
@@ -136,7 +197,7 @@ void place(Mesh& mesh, const geometry::Transform& transform) {
     for (Vec3& vertex : mesh.vertices) vertex = transform.point(vertex);
     for (Vec3& normal : mesh.normals) {
         const double size = length(normal);
-        normal = size > 1e-9 ? transform.normal(normal / size) : Vec3{};
+        normal = size > 1e-9 && std::isfinite(size) ? transform.normal(normal / size) : Vec3{};
     }
     if (!transform.is_mirrored()) return;
     for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) turn_over(mesh, t);
@@ -144,8 +205,17 @@ void place(Mesh& mesh, const geometry::Transform& transform) {
 
 std::map<int, std::size_t> uses_of_meshes(const std::vector<PlacedNode>& nodes) {
     std::map<int, std::size_t> uses;
-    for (const PlacedNode& node : nodes) ++uses[node.node->mesh];
+    for (const PlacedNode& node : nodes) ++uses[node.mesh];
     return uses;
+}
+
+/// Whether alpha may cut holes into a mesh, which divides the surfaces of each node on its own.
+bool may_have_holes(const File& file, const tinygltf::Mesh& mesh) {
+    return std::ranges::any_of(mesh.primitives, [&](const tinygltf::Primitive& primitive) {
+        const auto index = static_cast<std::size_t>(primitive.material);
+        return primitive.material >= 0 && index < file.model.materials.size() &&
+               file.model.materials[index].alphaMode != "OPAQUE";
+    });
 }
 
 class PrimitiveReader {
@@ -185,8 +255,7 @@ class PrimitiveReader {
                       Mesh& mesh) const {
         const auto normal = primitive.attributes.find("NORMAL");
         if (normal == primitive.attributes.end()) return;
-        mesh.normals = vectors_of(read_vectors(file_, normal->second, 3, part + ".NORMAL"));
-        expect_as_many(mesh.normals.size(), vertices, part + ".NORMAL");
+        mesh.normals = vectors_of(vertex_numbers(normal->second, 3, vertices, part, "NORMAL"));
     }
 
     std::vector<std::array<double, 2>> read_uv(const tinygltf::Primitive& primitive, const std::string& part,
@@ -195,15 +264,26 @@ class PrimitiveReader {
         const std::string name = fmt::format("TEXCOORD_{}", set);
         const auto coordinates = primitive.attributes.find(name);
         if (file_.model.textures.empty() || coordinates == primitive.attributes.end()) return uv;
-        const std::vector<double> numbers = read_vectors(file_, coordinates->second, 2, part + "." + name);
+        const std::vector<double> numbers = vertex_numbers(coordinates->second, 2, vertices, part, name);
         for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) uv.push_back({numbers[i], numbers[i + 1]});
-        expect_as_many(uv.size(), vertices, part + "." + name);
         return uv;
     }
 
-    void expect_as_many(std::size_t found, std::size_t vertices, const std::string& part) const {
-        if (found != vertices)
-            file_.fail(part, fmt::format("it has {} elements for {} vertices.", found, vertices));
+    /// What the vertices have beside their positions; nothing, with a warning, where it cannot be read: the
+    /// surface is there without it. Numbers that are not finite mark the vertices that have none.
+    std::vector<double> vertex_numbers(int accessor, std::size_t components, std::size_t vertices,
+                                       const std::string& part, const std::string& name) const {
+        std::string reason;
+        try {
+            std::vector<double> numbers = read_vectors(file_, accessor, static_cast<int>(components),
+                                                       part + "." + name, NotFinite::kept);
+            if (numbers.size() == components * vertices) return numbers;
+            reason = fmt::format("it has {} elements for {} vertices", numbers.size() / components, vertices);
+        } catch (const InputError& error) {
+            reason = error.what();
+        }
+        warnings_.add("primitive", part, fmt::format("its {} is left out ({}).", name, reason));
+        return {};
     }
 
     void expect_near(const Mesh& mesh, const std::string& part) const {
@@ -269,28 +349,30 @@ PlacedMeshes placed_meshes(const File& file, const std::vector<PlacedNode>& node
     PlacedMeshes placed;
     for (std::size_t n = 0; n < nodes.size(); ++n) {
         const tinygltf::Node& node = *nodes[n].node;
-        if (node.mesh < 0) continue;
-        const tinygltf::Mesh& mesh = element(file, file.model.meshes, node.mesh, "meshes", nodes[n].part);
+        const int index = nodes[n].mesh;
+        if (index < 0) continue;
+        const tinygltf::Mesh& mesh = element(file, file.model.meshes, index, "meshes", nodes[n].part);
         if (!(nodes[n].to_world.regularity() > kLeastRegularity)) {
             warnings.add("node", node.name.empty() ? nodes[n].part : node.name,
                          "its scale is 0 along an axis; it is left out.");
             continue;
         }
-        if (const auto first = first_of_shared.find(node.mesh); first != first_of_shared.end()) {
+        if (const auto first = first_of_shared.find(index); first != first_of_shared.end()) {
             placed.first_of_instance[n] = first->second;
             continue;
         }
         std::size_t triangles = 0;
         for (std::size_t p = 0; p < mesh.primitives.size(); ++p) {
-            auto primitive = reader.read(mesh.primitives[p], nodes[n],
-                                         fmt::format("meshes[{}].primitives[{}]", node.mesh, p));
+            auto primitive =
+                reader.read(mesh.primitives[p], nodes[n], fmt::format("meshes[{}].primitives[{}]", index, p));
             if (!primitive) continue;
             primitive->node = n;
             triangles += primitive->mesh.triangles.size();
             placed.primitives.push_back(std::move(*primitive));
         }
-        if (repeats == Repeats::instances && scene::are_instances(triangles, uses.at(node.mesh)))
-            first_of_shared[node.mesh] = n;
+        if (repeats == Repeats::instances && !may_have_holes(file, mesh) &&
+            scene::are_instances(triangles, uses.at(index)))
+            first_of_shared[index] = n;
     }
     return placed;
 }

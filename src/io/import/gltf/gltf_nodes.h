@@ -20,6 +20,9 @@ struct PlacedNode {
     const tinygltf::Node* node = nullptr;
     std::string part;  ///< "nodes[3]", for messages
     geometry::Transform to_world;
+    int mesh = -1;
+    /// Whether it stands for one more copy of the node's mesh alone (EXT_mesh_gpu_instancing).
+    bool is_copy = false;
 };
 
 /// The nodes of the file's scene, parents first. `root` is applied to all of them. Throws for nodes that are

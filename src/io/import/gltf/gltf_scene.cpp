@@ -8,10 +8,12 @@
 #include <optional>
 #include <utility>
 
+#include "geometry/leaning_normals.h"
 #include "io/import/gltf/gltf_lights.h"
 #include "io/import/gltf/gltf_materials.h"
 #include "io/import/gltf/gltf_nodes.h"
 #include "io/import/imported_scene.h"
+#include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
 #include "io/text/utf8.h"
 
@@ -19,11 +21,13 @@ namespace stilb::io {
 namespace {
 
 /// Extensions that are read, and those that change nothing here.
-constexpr std::array<std::string_view, 11> kKnownExtensions{
-    "KHR_lights_punctual",        "EXT_lights_ies",       "KHR_mesh_quantization",
-    "KHR_texture_transform",      "KHR_materials_ior",    "KHR_materials_specular",
-    "KHR_materials_transmission", "KHR_materials_volume", "KHR_materials_emissive_strength",
-    "KHR_materials_unlit",        "KHR_xmp_json_ld"};
+constexpr std::array<std::string_view, 12> kKnownExtensions{
+    "KHR_lights_punctual",    "EXT_lights_ies",
+    "KHR_mesh_quantization",  "EXT_mesh_gpu_instancing",
+    "KHR_texture_transform",  "KHR_materials_ior",
+    "KHR_materials_specular", "KHR_materials_transmission",
+    "KHR_materials_volume",   "KHR_materials_emissive_strength",
+    "KHR_materials_unlit",    "KHR_xmp_json_ld"};
 
 bool is_known(const std::string& extension) {
     return std::ranges::find(kKnownExtensions, extension) != kKnownExtensions.end();
@@ -96,12 +100,15 @@ class ObjectsOfNodes {
   private:
     const std::string& name_of(std::size_t n) const {
         const tinygltf::Node& node = *nodes_[n].node;
-        return node.name.empty() ? file_.model.meshes[static_cast<std::size_t>(node.mesh)].name : node.name;
+        return node.name.empty() ? file_.model.meshes[static_cast<std::size_t>(nodes_[n].mesh)].name
+                                 : node.name;
     }
 
     void add(std::size_t n, ImportedScene& scene) {
         ImportedMesh mesh = joined(of_node_[n], materials_);
         if (mesh.materials.empty()) return;
+        if (geometry::drop_leaning_normals(mesh.mesh) > 0)
+            scene.warnings.add("node", name_of(n), leaning_warning("some triangles"));
         const auto shared = shared_.find(n);
         if (shared == shared_.end()) return scene.add_object(name_of(n), std::move(mesh));
         shared->second.emplace(std::move(mesh));

@@ -104,6 +104,19 @@ class SurfaceConversion {
 
 }  // namespace
 
+void set_specular(const Rgb& specular, MeanSurface& surface) {
+    // Plastic reflects F + (1 - F) times its base, as the extension has it, for all F of its range of ior.
+    // Metals reflect more at normal incidence, and have next to no diffuse colour.
+    const double of_glass = normal_reflectance(surface.ior);
+    if (specular.luminance() <= normal_reflectance(materials::kIor.max)) {
+        surface.metallic = 0;
+        surface.specular = specular.luminance() / of_glass;
+        return;
+    }
+    surface.metallic = 1;
+    surface.base = specular + (1 - specular.max()) * surface.base;
+}
+
 Material material_of(const MeanSurface& surface, const std::string& name, GroupedWarnings& warnings) {
     return SurfaceConversion(name, warnings).convert(surface);
 }

@@ -20,6 +20,10 @@ struct MeanSurface {
     Rgb emission_cd_m2;
 };
 
+/// Sets what the specular colour of a surface at normal incidence says beside its diffuse colour, `base`
+/// (KHR_materials_pbrSpecularGlossiness): how much of it is metal, its base colour and its highlights.
+void set_specular(const Rgb& specular, MeanSurface& surface);
+
 /// Warns of what is left out; `name`: the material's.
 Material material_of(const MeanSurface& surface, const std::string& name, GroupedWarnings& warnings);
 

@@ -16,6 +16,9 @@ TextureWrap wrap_of(int mode) {
     return mode == TINYGLTF_TEXTURE_WRAP_MIRRORED_REPEAT ? TextureWrap::mirror : TextureWrap::repeat;
 }
 
+constexpr std::string_view kLeftOut =
+    "it is left out: a colour counts as 0.5 times its factor, another value as its factor";
+
 double component_in(const tinygltf::Value& table, const std::string& key, int index, double otherwise) {
     const tinygltf::Value& list = table.Get(key);
     const bool is_there = list.IsArray() && list.ArrayLen() == 2 && list.Get(index).IsNumber();
@@ -75,6 +78,17 @@ std::vector<Uv> SurfacePoints::uv(const UvTransform& transform) const {
     return all;
 }
 
+double SurfacePoints::leave_holes_out(const MaskedTexture& mask, const UvTransform& transform) {
+    const std::vector<Uv> places = uv(transform);
+    if (places.empty()) return 1;
+    std::vector<SurfacePoint> covered;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (!mask.is_hole(mask.map.at(places[i]))) covered.push_back(points_[i]);
+    }
+    points_ = std::move(covered);
+    return static_cast<double>(points_.size()) / static_cast<double>(places.size());
+}
+
 std::string Textures::content_of(const tinygltf::Image& image, const std::string& part) {
     if (image.bufferView >= 0) return std::string(file_.bytes_of_view(image.bufferView, part));
     return {image.image.begin(), image.image.end()};  // the parser has read it
@@ -84,7 +98,7 @@ std::shared_ptr<const Texture> Textures::picture_of(int index, const std::string
     const tinygltf::Texture& texture = element(file_, file_.model.textures, index, "textures", part);
     if (texture.source < 0) {
         warnings_.add("texture", fmt::format("textures[{}]", index),
-                      "it has no picture of a format that glTF itself has; it is left out.");
+                      fmt::format("it has no picture of a format that glTF itself has; {}.", kLeftOut));
         return nullptr;
     }
     const tinygltf::Image& image = element(file_, file_.model.images, texture.source, "images", part);
@@ -95,7 +109,7 @@ std::shared_ptr<const Texture> Textures::picture_of(int index, const std::string
                    std::make_shared<const Texture>(read_texture(content_of(image, part), name));
     } catch (const InputError& error) {
         warnings_.add("texture", image.uri.empty() ? name : in_quotes(image.uri.substr(0, 80)),
-                      fmt::format("it is left out ({}).", error.what()));
+                      fmt::format("{} ({}).", kLeftOut, error.what()));
         return nullptr;
     }
 }
@@ -112,9 +126,11 @@ std::optional<TextureMap> Textures::map_of(const tinygltf::TextureInfo& info, co
 }
 
 std::array<double, 4> Textures::mean(const tinygltf::TextureInfo& info, bool is_colour,
-                                     const SurfacePoints& surface, const std::string& part) {
+                                     const SurfacePoints& surface, const std::string& part,
+                                     const std::array<double, 4>& unread) {
+    if (info.index < 0) return {1, 1, 1, 1};
     const std::optional<TextureMap> map = map_of(info, part);
-    if (!map) return {1, 1, 1, 1};
+    if (!map) return unread;
     // Where the file says nothing about its place, the whole picture counts.
     return mean_of(*map, surface.uv(uv_transform(info)), is_colour);
 }

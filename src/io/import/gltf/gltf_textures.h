@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "io/import/gltf/gltf_nodes.h"
-#include "io/import/textures/texture_map.h"
+#include "io/import/textures/texture_pieces.h"
 
 namespace stilb::io::gltf {
 
@@ -31,6 +31,9 @@ class SurfacePoints {
     SurfacePoints(const std::vector<PlacedPrimitive>& primitives, int material);
     /// Their texture coordinates; empty where a surface has none.
     std::vector<Uv> uv(const UvTransform& transform) const;
+    /// Leaves points in holes out. Returns the share of the others; 1 where a surface has no texture
+    /// coordinates.
+    double leave_holes_out(const MaskedTexture& mask, const UvTransform& transform);
 
   private:
     struct Face {
@@ -48,9 +51,11 @@ class Textures {
     /// Nothing where there is no texture, or it cannot be read (which is a warning).
     std::optional<TextureMap> map_of(const tinygltf::TextureInfo& info, const std::string& part);
     /// The means of red, green, blue and alpha (from 0 to 1) of a texture over the surface; ones where there
-    /// is none. `is_colour`: red, green and blue are stored by the tone curve of sRGB.
+    /// is none, `unread` where it cannot be read. `is_colour`: red, green and blue are stored by the tone
+    /// curve of sRGB.
     std::array<double, 4> mean(const tinygltf::TextureInfo& info, bool is_colour,
-                               const SurfacePoints& surface, const std::string& part);
+                               const SurfacePoints& surface, const std::string& part,
+                               const std::array<double, 4>& unread = {1, 1, 1, 1});
 
   private:
     std::shared_ptr<const Texture> picture_of(int index, const std::string& part);

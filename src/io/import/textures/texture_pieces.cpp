@@ -55,8 +55,8 @@ class PieceSample {
         std::size_t filled = 0;
         for (std::size_t i = 0; i < count; ++i) {
             const auto& texel = texture_.map.at(uv_at(place_, even_point_of_triangle(i)));
-            if (texel[3] / 255.0 < texture_.least_alpha) continue;
-            const Rgb colour = linear_rgb(texel);
+            if (texture_.is_hole(texel)) continue;
+            const Rgb colour = texture_.shows_colours ? linear_rgb(texel) : Rgb{};
             sum += colour;
             squares += colour * colour;
             ++filled;

@@ -20,6 +20,9 @@ namespace stilb::io {
 struct MaskedTexture {
     TextureMap map;
     double least_alpha = 0;  ///< of surface; texels of less are holes
+    bool shows_colours = true;
+
+    bool is_hole(const std::array<std::uint8_t, 4>& texel) const { return texel[3] / 255.0 < least_alpha; }
 };
 
 inline constexpr std::uint32_t kNoTexture = ~0u;

@@ -103,6 +103,22 @@ class CornerNormals {
     std::unordered_map<std::uint32_t, std::uint32_t> known_;  ///< normals by vertex, in one triangle
 };
 
+/// Decides which pieces with parts of holes are surface, so that their area in all is that of the surface.
+class Coverage {
+  public:
+    bool takes(const Piece& piece) {
+        if (piece.filled <= 0 || piece.filled >= 1) return piece.filled > 0;
+        constexpr double half = 0.5;
+        missing_m2_ += piece.filled * piece.area_m2;
+        const bool is_surface = missing_m2_ >= half * piece.area_m2;
+        if (is_surface) missing_m2_ -= piece.area_m2;
+        return is_surface;
+    }
+
+  private:
+    double missing_m2_ = 0;  ///< the surface of earlier pieces without their area
+};
+
 class SurfaceDivision {
   public:
     SurfaceDivision(Scene& scene, const SceneTextures& textures, UniqueNames& names, GroupedWarnings& remarks,
@@ -183,14 +199,15 @@ class SurfaceDivision {
 
     /// The materials of all pieces: nothing for holes.
     std::vector<std::optional<MaterialId>> materials_of(const TexturePieces& all) {
-        constexpr double half = 0.5, smallest_m2 = 1e-300;
+        constexpr double smallest_m2 = 1e-300;
+        std::vector<Coverage> coverages(textures_.size());
         std::vector<std::optional<MaterialId>> materials(all.pieces.size());
         std::vector<std::vector<std::size_t>> of_texture(textures_.size());
         for (std::size_t p = 0; p < all.pieces.size(); ++p) {
             const Piece& piece = all.pieces[p];
             if (const std::uint32_t texture = faces_.textures[piece.parent]; texture == kNoTexture)
                 materials[p] = own_material(piece.parent);
-            else if (piece.filled >= half)
+            else if (coverages[texture].takes(piece))
                 of_texture[texture].push_back(p);
         }
         const std::size_t share = limits_.colours / textures_.size();
@@ -216,6 +233,10 @@ class SurfaceDivision {
 
     void report(std::size_t texture, std::size_t faces, std::size_t colours, double coarsest_m) {
         const std::string& name = scene_.materials[index_of(materials_[texture])].name;
+        if (!textures_[texture].shows_colours) {
+            remarks_.add("material", name, fmt::format("its holes are cut: {} faces remain.", faces));
+            return;
+        }
         remarks_.add("material", name, fmt::format("its texture is {} faces of {} colours.", faces, colours));
         if (!(coarsest_m > 0)) return;
         warnings_.add(
@@ -227,6 +248,7 @@ class SurfaceDivision {
 
     std::vector<MaterialId> add_materials(std::size_t texture, const Palette& palette) {
         const MaterialId mean = materials_[texture];
+        if (!textures_[texture].shows_colours) return std::vector(palette.colours.size(), mean);
         const std::string name = scene_.materials[index_of(mean)].name;
         bool is_mean_free = !has_plain_faces(mean);  // its place can be taken
         std::vector<MaterialId> added;

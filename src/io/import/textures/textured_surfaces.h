@@ -19,7 +19,8 @@ class UniqueNames;
 /// The texture of a material's faces.
 struct FaceTexture {
     MaskedTexture texture;
-    /// The material of a face with this colour of the texture, in place of that with its mean.
+    /// The material of a face with this colour of the texture, in place of that with its mean. It is not
+    /// called where the texture shows no colours but cuts holes alone.
     std::function<Material(const Rgb& colour)> material;
 };
 
@@ -30,6 +31,7 @@ struct SceneTextures {
     std::map<ObjectId, std::vector<FacePlace>> places;
 };
 
+/// The default suits textures that are shown.
 struct TextureLimits {
     std::size_t faces_of_material = 200'000, faces = 2'000'000;  ///< about
     std::size_t colours_of_material = 256, colours = 32'768;
