@@ -207,6 +207,74 @@ TEST(GltfTextures, AlphaCutsHoles) {
     expect_near(reflectance_at(file, -0.25, 0.1), Rgb::grey(linear_of_srgb(200)));
 }
 
+// Holes without textures
+
+/// A square of 4 m2 with this share of holes, in squares of one texel of 64 x 64 spread over it. The texels
+/// of holes are black, the others white.
+struct HolesSquare {
+    double share = 0.45;
+    std::string alpha_mode = "MASK", more = "";
+
+    std::vector<std::array<std::uint8_t, 4>> texels() const {
+        std::vector<std::array<std::uint8_t, 4>> texels;
+        double owed = 0;
+        for (int i = 0; i < 64 * 64; ++i) {
+            owed += share;
+            const bool is_hole = owed >= 1;
+            if (is_hole) owed -= 1;
+            texels.push_back(is_hole ? std::array<std::uint8_t, 4>{0, 0, 0, 0}
+                                     : std::array<std::uint8_t, 4>{255, 255, 255, 255});
+        }
+        return texels;
+    }
+    GltfText gltf() const {
+        TexturedSquare square;
+        square.members =
+            fmt::format(R"({}, "alphaMode": "{}", "doubleSided": true{})", kDiffuse, alpha_mode, more);
+        GltfText gltf = square.gltf();
+        const int texture = gltf.add_texture(tga_of(64, 64, texels()));
+        std::string& material = gltf.materials[0];
+        material.replace(material.find("\"index\": 0"), 10, fmt::format("\"index\": {}", texture));
+        return gltf;
+    }
+};
+
+TEST(GltfTextures, HolesAreCutByTheirCoverage) {
+    for (const double share : {0.02, 0.45, 0.55, 0.98}) {
+        for (const std::string mode : {"MASK", "BLEND"}) {
+            const SceneFile file = read_gltf(HolesSquare{share, mode}.gltf().text());
+            EXPECT_NEAR(area_of(file), 4 * (1 - share), 0.004) << share;
+            ASSERT_EQ(file.scene.materials.size(), 1u);
+            expect_near(reflectance_of(file.scene.materials[0].material), Rgb::grey(1));  // not of the holes
+        }
+    }
+}
+
+TEST(GltfTextures, HolesOfRepeatedMeshesAreCut) {
+    GltfText gltf = HolesSquare{}.gltf();
+    gltf.add_node(R"("mesh": 0, "translation": [5, 0, 0])");
+    EXPECT_NEAR(area_of(read_gltf(gltf.text())), 2 * 4 * 0.55, 0.008);
+}
+
+TEST(GltfTextures, LampsWithHolesShineWhereTheyAreNot) {
+    HolesSquare square;
+    square.more = R"(, "emissiveFactor": [1, 1, 1], "emissiveTexture": {"index": 1})";
+    GltfText gltf = square.gltf();
+    const SceneFile file = read_gltf(gltf.text());
+    // A double-sided open surface: a front and a back.
+    ASSERT_EQ(file.scene.lights.size(), 2u);
+    const double flux_lm = scene::flux_lm(file.scene, file.scene.lights[0]).luminance();
+    EXPECT_NEAR(flux_lm, kPi * 4 * 0.55, 0.02);
+}
+
+TEST(GltfTextures, SurfacesOfHolesAloneAreLeftOut) {
+    GltfText gltf = HolesSquare{1}.gltf();
+    gltf.add_node(fmt::format(R"("mesh": {})", gltf.add_mesh(gltf_square(), -1)));
+    const SceneFile file = read_gltf(gltf.text());
+    EXPECT_NEAR(area_of(file), 4, 1e-9);
+    EXPECT_EQ(file.scene.objects.size(), 1u);
+}
+
 /// A sun of 1000 lx from straight above.
 void add_sun(GltfText& gltf) {
     gltf.extensions = R"("KHR_lights_punctual": {"lights": [{"type": "directional", "intensity": 1000}]})";
@@ -272,6 +340,74 @@ TEST_F(ImportFolderTest, TexturesOfObj) {
     const SceneFile file = read("Kd 1 1 1\nmap_Kd tiles.tga\n", show);
     const SceneFile again = read_scene_file(write_scene_folder(file, folder / "out").front());
     expect_chequers(again, 8);
+}
+
+/// Opacities are grey, or the alpha of their picture. Where they are nearly 0 or 1 they cut holes.
+TEST_F(ImportFolderTest, OpacitiesOfObjCutHoles) {
+    const HolesSquare holes;
+    write("alpha.tga", tga_of(64, 64, holes.texels()));
+    std::vector<std::array<std::uint8_t, 3>> grey;
+    for (const auto& texel : holes.texels()) grey.push_back({texel[3], texel[3], texel[3]});
+    write("grey.tga", tga(64, 64, grey));
+    const auto path = write("square.obj", std::string(kSquareObj));
+    for (const std::string picture : {"alpha.tga", "grey.tga"}) {
+        write("tiles.mtl", "newmtl tiles\nKd 0.6 0.6 0.6\nmap_d " + picture + "\n");
+        const SceneFile file =
+            read_obj_scene(path, std::vector<std::string>{"import.scale=1", "import.up=z"});
+        EXPECT_NEAR(area_of(file), 4 * 0.55, 0.004) << picture;
+        expect_near(reflectance_of(file.scene.materials.at(0).material), Rgb::grey(0.6));
+    }
+    // A veil is a pane.
+    write("veil.tga", tga(1, 1, {{51, 51, 51}}));
+    write("tiles.mtl", "newmtl tiles\nKd 0.6 0.6 0.6\nmap_d veil.tga\n");
+    const SceneFile veil = read_obj_scene(path, std::vector<std::string>{"import.scale=1", "import.up=z"});
+    const auto& pane = std::get<ThinDielectric>(veil.scene.materials.at(0).material);
+    EXPECT_NEAR(pane.internal_transmittance[0], 0.8, 1e-9);
+}
+
+TEST_F(ImportFolderTest, MissingPicturesOfObjAreOfMediumReflectance) {
+    write("tiles.mtl", "newmtl tiles\nKd 1 1 0.5\nmap_Kd nowhere.png\n");
+    const auto path = write("square.obj", std::string(kSquareObj));
+    const SceneFile file = read_obj_scene(path, std::vector<std::string>{"import.scale=1", "import.up=z"});
+    expect_near(reflectance_of(file.scene.materials.at(0).material), {{0.5, 0.5, 0.25}});
+}
+
+/// Names in quotes, with backslashes, in Latin-1, and of another computer.
+TEST_F(ImportFolderTest, FilesOfObjAreFoundBesideIt) {
+    const std::vector<std::string> plain{"import.scale=1", "import.up=z"};
+    write("my tiles.mtl", "newmtl tiles\nKd 0.25 0.25 0.25\n");
+    write(
+        "K\xc3\xbc"
+        "che.mtl",
+        "newmtl tiles\nKd 0.125 0.125 0.125\n");
+    const std::string rest(kSquareObj.substr(kSquareObj.find('\n') + 1));
+    const auto reflectance = [&](const std::string& statement) {
+        const SceneFile file =
+            read_obj_scene(write("square.obj", "mtllib " + statement + "\n" + rest), plain);
+        return reflectance_of(file.scene.materials.at(0).material)[0];
+    };
+    for (const std::string name : {"my tiles.mtl", "\"my tiles.mtl\"", "my\\ tiles.mtl", ".\\my tiles.mtl",
+                                   "C:\\models\\my tiles.mtl"})
+        EXPECT_NEAR(reflectance(name), 0.25, 1e-9) << name;
+    EXPECT_NEAR(reflectance("K\xfc"
+                            "che.mtl"),
+                0.125, 1e-9);
+    EXPECT_NEAR(reflectance("nowhere.mtl"), 0.5, 1e-9);
+}
+
+TEST_F(ImportFolderTest, NamesOfObjAreUtf8) {
+    write("tiles.mtl", "newmtl W\xe4nde\nKd 0.25 0.25 0.25\n");
+    std::string text(kSquareObj);
+    text.replace(text.find("usemtl tiles"), 12,
+                 "g K\xfc"
+                 "che\nusemtl W\xe4nde");
+    const SceneFile file =
+        read_obj_scene(write("square.obj", text), std::vector<std::string>{"import.scale=1", "import.up=z"});
+    EXPECT_EQ(file.scene.materials.at(0).name, "W\xc3\xa4nde");
+    EXPECT_EQ(file.scene.objects.at(0).name,
+              "K\xc3\xbc"
+              "che");
+    expect_near(reflectance_of(file.scene.materials[0].material), Rgb::grey(0.25));
 }
 
 TEST_F(ImportFolderTest, FacesWithoutCoordinatesKeepTheMean) {

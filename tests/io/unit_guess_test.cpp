@@ -27,14 +27,18 @@ MeshFile room(double width, double depth, double height) {
 }
 
 TEST(UnitGuess, FloorsAndCeilingsLieAcrossTheVertical) {
-    EXPECT_EQ(guess_up(room(5, 4, 2.5)).up, UpAxis::z);
-    EXPECT_EQ(guess_up(room(5, 2.5, 4)).up, UpAxis::y);
+    EXPECT_EQ(guess_placement(room(5, 4, 2.5)).up, UpAxis::z);
+    EXPECT_EQ(guess_placement(room(5, 2.5, 4)).up, UpAxis::y);
+}
+
+PlacementGuess with_z_up(const MeshFile& file) {
+    ImportOptions options;
+    options.up = UpAxis::z;
+    return guess_placement(file, options);
 }
 
 TEST(UnitGuess, AStoreyTellsTheUnit) {
-    const auto scale = [](double height) {
-        return guess_scale(room(2 * height, 2 * height, height), UpAxis::z).scale;
-    };
+    const auto scale = [](double height) { return with_z_up(room(2 * height, 2 * height, height)).scale; };
     EXPECT_EQ(scale(2.5), 1);
     EXPECT_EQ(scale(12), 1);    // a hall in metres, though it could be a room in feet
     EXPECT_EQ(scale(0.75), 1);  // a table in metres
@@ -47,9 +51,52 @@ TEST(UnitGuess, AStoreyTellsTheUnit) {
 TEST(UnitGuess, ADoorDecides) {
     MeshFile hall = room(30, 40, 9);
     add_box(hall, "Entrance_Door", {0, 0, 0}, {3, 0.2, 6.8});  // 2.07 m in feet
-    const ScaleGuess guess = guess_scale(hall, UpAxis::z);
+    const PlacementGuess guess = with_z_up(hall);
     EXPECT_EQ(guess.scale, 0.3048);
-    EXPECT_EQ(guess.reason, "scale = 0.3048 (feet), because a door is then 2.07 m high.");
+    EXPECT_EQ(guess.unit, "feet");
+    EXPECT_EQ(guess.scale_reason, "because a door is then 2.07 m high");
+}
+
+/// A panel on four legs, y upwards.
+MeshFile table(const Vec3& size) {
+    MeshFile file;
+    const double leg = 0.05 * size.x, top = 0.95 * size.y;
+    add_box(file, "top", {0, top, 0}, size);
+    for (const double x : {0.0, size.x - leg})
+        for (const double z : {0.0, size.z - leg}) add_box(file, "leg", {x, 0, z}, {x + leg, top, z + leg});
+    return file;
+}
+
+TEST(UnitGuess, FurnitureIsMostlyInCentimetresWithYUpwards) {
+    for (const double metres : {1.0, 0.01}) {
+        const PlacementGuess guess = guess_placement(table(Vec3{1.6, 0.75, 0.8} / metres));
+        EXPECT_EQ(guess.scale, metres);
+        EXPECT_EQ(guess.up, UpAxis::y);
+        EXPECT_NEAR(guess.size_m.z, 0.75, 1e-9);
+        EXPECT_EQ(guess.scale_reason, "because the model is then as large as furniture");
+    }
+    // A cupboard, whose sides are those of a room.
+    MeshFile cupboard;
+    add_box(cupboard, "", {0, 0, 0}, {92, 147, 36});
+    EXPECT_EQ(guess_placement(cupboard).scale, 0.01);
+    EXPECT_EQ(guess_placement(cupboard).up, UpAxis::y);
+}
+
+TEST(UnitGuess, ALevelSheetIsAFloor) {
+    MeshFile sheet;
+    sheet.mesh = {{{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}}, {{0, 1, 2}, {0, 2, 3}}};
+    sheet.group_names = {""};
+    sheet.group_of_triangle = {0, 0};
+    EXPECT_EQ(guess_placement(sheet).up, UpAxis::z);
+    EXPECT_EQ(guess_placement(sheet).scale, 1);
+}
+
+TEST(UnitGuess, KeepsWhatIsStated) {
+    ImportOptions options;
+    options.scale = 0.01;
+    EXPECT_EQ(guess_placement(room(5, 4, 2.5), options).scale, 0.01);
+    options.up = UpAxis::y;
+    EXPECT_EQ(guess_placement(room(5, 4, 2.5), options).up, UpAxis::y);
 }
 
 TEST(Base64, IsReadBack) {

@@ -78,8 +78,9 @@ class ImportTest(CommandLineTest):
 
     def test_obj_says_what_it_chose(self):
         result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out")
-        self.assertIn('up = "y", because', result.stdout)
-        self.assertIn("scale = 1 (metres), because the model is then 2.5 m high", result.stdout)
+        self.assertIn("It is taken as 4 x 3 m large and 2.5 m high", result.stderr)
+        self.assertIn('up = "y", because', result.stderr)
+        self.assertIn("scale = 1 (metres), because the model is then as high as one storey", result.stderr)
         result = run("import", DATA / "blender_room.obj", "-o", self.folder / "out", "--scale", "0.5", "--up", "y",
                      "--light-scale", "2")
         self.assertNotIn("scale =", result.stdout + result.stderr)
@@ -114,6 +115,23 @@ class ImportTest(CommandLineTest):
         radiance = DATA / "radiance/room.rad"
         self.expect_wrong_input(["info", radiance, "--set", "import.textures=true"], "import.textures does not go with them")
         self.expect_wrong_input(["info", room, "--set", "import.textures=1"], "import.textures")
+
+    def test_names_in_latin_1_do_not_lose_the_results(self):
+        (self.folder / "room.mtl").write_bytes(b"newmtl W\xe4nde\nKd 0.5 0.5 0.5\nnewmtl lamp\nKd 0 0 0\nKe 10 10 10\n")
+        room = self.folder / "room.obj"
+        room.write_bytes(b"mtllib room.mtl\nv 0 0 0\nv 4 0 0\nv 4 4 0\nv 0 4 0\nv 0 0 3\nv 4 0 3\nv 4 4 3\nv 0 4 3\n"
+                         b"g Fu\xdfboden\nusemtl W\xe4nde\nf 1 2 3 4\ng K\xfcche\nusemtl lamp\nf 5 8 7 6\n")
+        options = ["--set", "import.scale=1", "--set", "import.up=z", "--set", DESK]
+        self.assertGreater(self.values(room, *options)[0], 10)
+        info = self.info(room, *options)
+        self.assertEqual([item["name"] for item in info["objects"]], ["Fu\u00dfboden", "K\u00fcche"])
+        self.assertEqual(info["materials"][0]["name"], "W\u00e4nde")
+
+    def test_sensors_are_added_one_by_one(self):
+        info = self.info(DATA / "blender_room.obj", "--set", DESK, "--set", DESK.replace("desk", "shelf"), "--set",
+                         'sensors.wall.type="luminance"', "--set", "sensors.wall.position=[1, 1, 1]", "--set",
+                         "sensors.wall.direction=[0, 1, 0]")
+        self.assertEqual([sensor["name"] for sensor in info["sensors"]], ["desk", "shelf", "wall"])
 
     def test_an_obj_without_materials_is_shown_as_a_mesh(self):
         plain = self.write("plain.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")

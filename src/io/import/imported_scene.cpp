@@ -9,6 +9,7 @@
 
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
+#include "io/text/utf8.h"
 #include "scene/cut_lamps.h"
 #include "scene/glass.h"
 #include "scene/instances.h"
@@ -101,13 +102,14 @@ std::vector<std::uint32_t> triangles_of(const Object& object, MaterialId materia
 }  // namespace
 
 std::string UniqueNames::make(std::string_view name, std::string_view otherwise) {
-    std::string wanted(name.empty() ? otherwise : name);
+    std::string wanted = as_utf8(name.empty() ? otherwise : name);
     for (char& c : wanted) {
         const auto byte = static_cast<unsigned char>(c);
         if (byte < 0x20 || byte == 0x7f || c == '/' || c == '\\') c = '_';
     }
     std::string unique = wanted;
-    for (int i = 2; !used_.insert(unique).second; ++i) unique = fmt::format("{}_{}", wanted, i);
+    int& number = last_number_.try_emplace(wanted, 1).first->second;
+    while (!used_.insert(unique).second) unique = fmt::format("{}_{}", wanted, ++number);
     return unique;
 }
 
@@ -129,7 +131,7 @@ void drop_flat_normals(Mesh& mesh) {
 
 ImportedScene::ImportedScene(const std::filesystem::path& path) {
     file.sources.push_back(path);
-    file.scene.name = path.stem().string();
+    file.scene.name = as_utf8(path.stem().string());
 }
 
 void ImportedScene::note(std::string_view sentence) {
@@ -259,7 +261,10 @@ void ImportedScene::warn_of_units() {
 }
 
 SceneFile ImportedScene::finish(const ImportSettings& settings) && {
-    apply_textures(file.scene, textures_, materials_, remarks_, warnings);
+    // Holes matter by their area, not by their outlines.
+    constexpr TextureLimits of_holes{20'000, 400'000};
+    apply_textures(file.scene, textures_, materials_, remarks_, warnings,
+                   settings.options().textures ? TextureLimits{} : of_holes);
     const std::vector<std::string> notes = remarks_.list();
     file.notes.insert(file.notes.end(), notes.begin(), notes.end());
     const auto count = static_cast<std::uint32_t>(file.scene.objects.size());

@@ -26,6 +26,7 @@ class UniqueNames {
 
   private:
     std::set<std::string> used_;
+    std::map<std::string, int> last_number_;  ///< of each name that was wanted, for its next
 };
 
 /// The light of a material's faces.

@@ -29,6 +29,10 @@ class MtlConversion {
                     "illum with refraction becomes a thin pane, because an OBJ file does not say whether the "
                     "body is solid.");
             }
+            warn(fmt::format(
+                "its opacity of {:.2g} (d, Tr) makes it a clear pane; the light that it would reflect "
+                "diffusely is absorbed.",
+                material.opacity));
             return sheet(normal_reflectance(ior), (1 - material.opacity) * share(material.filter, "Tf"));
         }
         const Rgb specular = share(material.specular, "Ks");

@@ -1,3 +1,4 @@
+// The rules were chosen by 820 models of furniture, whose catalogue states their sizes: see docs/import.md.
 #include "io/import/obj/unit_guess.h"
 
 #include <fmt/format.h>
@@ -6,6 +7,10 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <optional>
+#include <string_view>
+
+#include "base/vec.h"
 
 namespace stilb::io {
 namespace {
@@ -13,18 +18,18 @@ namespace {
 struct Unit {
     std::string_view name;
     double metres;
-    bool is_imperial = false;
+    double points;  ///< the more usual, the more
 };
-/// The first of equally likely ones is taken.
-constexpr std::array kUnits{Unit{"metres", 1}, Unit{"millimetres", 1e-3}, Unit{"centimetres", 1e-2},
-                            Unit{"inches", 0.0254, true}, Unit{"feet", 0.3048, true}};
+constexpr std::array kUnits{Unit{"metres", 1, 0.6}, Unit{"millimetres", 1e-3, -0.2},
+                            Unit{"centimetres", 1e-2, 0.8}, Unit{"inches", 0.0254, -1.8},
+                            Unit{"feet", 0.3048, -2.4}};
 constexpr double kLowestStorey_m = 2.2, kHighestStorey_m = 4;
-/// Longer scenes than this are likely to have another unit.
-constexpr double kLongestInMetres = 200;
-constexpr double kNarrowestRoom_m = 1.5;
+/// Longer models are likely to have another unit.
+constexpr double kLongest_m = 200;
 constexpr double kLowestDoor_m = 1.85, kHighestDoor_m = 2.5;
 
-double height_along(const Vec3& v, UpAxis up) { return up == UpAxis::z ? v.z : v.y; }
+std::size_t axis_of(UpAxis up) { return up == UpAxis::z ? 2 : 1; }
+std::string_view name_of(UpAxis up) { return up == UpAxis::z ? "z" : "y"; }
 
 bool names_a_door(std::string name) {
     std::ranges::transform(name, name.begin(),
@@ -44,7 +49,7 @@ std::vector<double> door_heights(const MeshFile& file, UpAxis up) {
     std::vector<Heights> extents(file.group_names.size());
     for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t) {
         for (const std::uint32_t corner : file.mesh.triangles[t])
-            extents[file.group_of_triangle[t]].include(height_along(file.mesh.vertices[corner], up));
+            extents[file.group_of_triangle[t]].include(file.mesh.vertices[corner][axis_of(up)]);
     }
     std::vector<double> heights;
     for (std::size_t g = 0; g < extents.size(); ++g) {
@@ -54,121 +59,191 @@ std::vector<double> door_heights(const MeshFile& file, UpAxis up) {
     return heights;
 }
 
-/// From 0 (impossible) on. `breadth_m`: the shorter horizontal side.
-int likelihood(double height_m, double breadth_m) {
-    if (breadth_m < kNarrowestRoom_m) return height_m >= 0.3 && height_m <= 60 ? 1 : 0;
-    if (height_m >= kLowestStorey_m && height_m <= kHighestStorey_m) return 3;  // one storey
-    if (height_m > kHighestStorey_m && height_m <= 60) return 2;                // several storeys, or a hall
-    return height_m >= 0.3 && height_m < kLowestStorey_m ? 1 : 0;               // furniture
-}
+/// The surfaces of a model in the box around it, in units of the file.
+class ModelBox {
+  public:
+    explicit ModelBox(const MeshFile& file) {
+        for (const Triangle& triangle : file.mesh.triangles) {
+            for (const std::uint32_t corner : triangle) box_.include(file.mesh.vertices[corner]);
+        }
+        for (std::size_t t = 0; t < file.mesh.triangles.size(); ++t) add_area(file.mesh.corners_of(t));
+    }
 
-std::string words_for(int likelihood) {
-    constexpr std::array<std::string_view, 4> kWords{"", "as furniture is", "as a hall or some storeys are",
-                                                     "as one storey is (2.2 to 4 m)"};
-    return std::string(kWords[static_cast<std::size_t>(likelihood)]);
-}
-
-/// The box around the triangles.
-struct Extent {
-    Vec3 least{kLargestCoordinate, kLargestCoordinate, kLargestCoordinate};
-    Vec3 most{-kLargestCoordinate, -kLargestCoordinate, -kLargestCoordinate};
-
-    Vec3 size() const { return most - least; }
+    Vec3 size() const { return box_.max - box_.min; }
     double longest() const { return std::max({size().x, size().y, size().z}); }
+
+    /// With z upwards.
+    Vec3 size_for(UpAxis up) const { return up == UpAxis::z ? size() : Vec3{size().x, size().z, size().y}; }
+
     /// Whether the model begins at 0 along an axis, as things that stand on the ground do.
     bool stands_at_zero(UpAxis up) const {
         constexpr double rounding = 1e-3;
-        return std::abs(height_along(least, up)) < rounding * longest() && height_along(most, up) > 0;
+        return std::abs(box_.min[axis_of(up)]) < rounding * longest() && box_.max[axis_of(up)] > 0;
     }
-};
-Extent extent_of_triangles(const MeshFile& file) {
-    Extent extent;
-    for (const Triangle& triangle : file.mesh.triangles) {
-        for (const std::uint32_t corner : triangle) {
-            const Vec3& v = file.mesh.vertices[corner];
-            extent.least = {std::min(extent.least.x, v.x), std::min(extent.least.y, v.y),
-                            std::min(extent.least.z, v.z)};
-            extent.most = {std::max(extent.most.x, v.x), std::max(extent.most.y, v.y),
-                           std::max(extent.most.z, v.z)};
+
+    /// Of the area across y or z, the share across this axis; a half where there is none.
+    double level_share(UpAxis up) const {
+        const double both = across_[1] + across_[2];
+        return both > 0 ? across_[axis_of(up)] / both : 0.5;
+    }
+
+    /// How much of the box's bottom the model covers; more than 1 where faces lie above each other.
+    double floor_cover(UpAxis up) const { return side_cover(axis_of(up), 0); }
+
+    /// Whether it has a floor and walls, at least two of them.
+    bool encloses(UpAxis up) const {
+        constexpr double least_floor = 0.5, least_wall = 0.4;
+        int walls = 0;
+        for (const std::size_t axis : {std::size_t{0}, 3 - axis_of(up)})
+            for (const std::size_t end : {0, 1}) walls += side_cover(axis, end) >= least_wall ? 1 : 0;
+        return floor_cover(up) >= least_floor && walls >= 2;
+    }
+
+  private:
+    void add_area(const std::array<Vec3, 3>& corners) {
+        constexpr double kAcross = 0.996;  // cosine of 5 degrees
+        constexpr double kNear = 0.05;     // of the box
+        const auto& [a, b, c] = corners;
+        const Vec3 doubled = cross(b - a, c - a);
+        const double size = length(doubled);
+        for (std::size_t axis = 0; axis < 3; ++axis) {
+            if (!(std::abs(doubled[axis]) > kAcross * size)) continue;
+            across_[axis] += size / 2;
+            const double at = (a[axis] + b[axis] + c[axis]) / 3, near = kNear * this->size()[axis];
+            if (at <= box_.min[axis] + near) side_[axis][0] += size / 2;
+            if (at >= box_.max[axis] - near) side_[axis][1] += size / 2;
         }
     }
-    return extent;
+
+    double side_cover(std::size_t axis, std::size_t end) const {
+        const double whole = size()[(axis + 1) % 3] * size()[(axis + 2) % 3];
+        return whole > 0 ? side_[axis][end] / whole : 0;
+    }
+
+    Bounds box_;
+    std::array<double, 3> across_{};
+    std::array<std::array<double, 2>, 3> side_{};
+};
+
+/// What a model may be.
+struct Kind {
+    double points = 0;  ///< the more usual, the more
+    std::string_view words;
+    bool has_floors = false;  ///< its level faces are floors and ceilings
+};
+
+/// The most usual kind that a size fits. `encloses`: whether there are a floor and walls.
+Kind kind_of(const Vec3& size_m, bool encloses, double floor_cover) {
+    constexpr double kLongestRoom_m = 60, kLeastRoom_m = 1.5, kLeastBuilding_m = 3, kHighestBuilding_m = 30;
+    constexpr double kWidestFurniture_m = 1, kLongestFurniture_m = 2.4, kFullFloor = 0.8;
+    const double length_m = std::max(size_m.x, size_m.y), breadth_m = std::min(size_m.x, size_m.y);
+    const double height_m = size_m.z, longest_m = std::max(length_m, height_m);
+    if (longest_m > kLongest_m) return {};
+    Kind best{0.2, "not longer than 200 m"};
+    const auto may_be = [&](bool fits, const Kind& kind) {
+        if (fits && kind.points > best.points) best = kind;
+    };
+    const bool is_storey = height_m >= kLowestStorey_m && height_m <= kHighestStorey_m;
+    may_be(encloses && is_storey && breadth_m >= kLeastRoom_m && length_m <= kLongestRoom_m,
+           {5.6, "as high as one storey (2.2 to 4 m)", true});
+    const bool is_building = encloses && breadth_m >= kLeastBuilding_m && height_m > kHighestStorey_m &&
+                             height_m <= kHighestBuilding_m && height_m <= 1.5 * breadth_m;
+    may_be(is_building && length_m <= kLongestRoom_m, {4.4, "as high as a hall or some storeys", true});
+    may_be(is_building, {3.4, "as high as a hall or some storeys", true});
+    may_be(floor_cover >= kFullFloor && breadth_m >= kLeastBuilding_m && length_m <= kLongestRoom_m,
+           {2.0, "a floor with things on it"});
+    may_be(longest_m >= 0.3 && longest_m <= kLongestFurniture_m && breadth_m <= kWidestFurniture_m,
+           {3.2, "as large as furniture"});
+    may_be(longest_m >= 0.3 && longest_m <= 4, {2.4, "as large as furniture"});
+    may_be(longest_m >= 0.03 && longest_m < 0.3, {1.6, "as large as small things"});
+    may_be(longest_m > 4 && longest_m <= 30, {1.2, "as large as trees or vehicles"});
+    return best;
 }
 
-std::string_view name_of(UpAxis up) { return up == UpAxis::z ? "z" : "y"; }
+struct Candidate {
+    UpAxis up = UpAxis::y;
+    double scale = 1;
+    Kind kind;
+    double points = 0;
+};
+
+std::string_view unit_of(double scale) {
+    const auto unit = std::ranges::find(kUnits, scale, &Unit::metres);
+    return unit == kUnits.end() ? "" : unit->name;
+}
+
+/// How usual a model of this kind with this axis is.
+double points_of_axis(const ModelBox& box, UpAxis up, const Kind& kind) {
+    constexpr double y_upwards = 1, y_upwards_of_rooms = 0.4, standing = 0.8, level_faces = 4.8, sheet = 2.5;
+    const UpAxis other = up == UpAxis::y ? UpAxis::z : UpAxis::y;
+    double points = 0;
+    if (up == UpAxis::y) points += kind.has_floors ? y_upwards_of_rooms : y_upwards;
+    if (kind.has_floors) points += level_faces * (box.level_share(up) - 0.5);
+    if (box.stands_at_zero(up) && !box.stands_at_zero(other)) points += standing;
+    if (box.size_for(up).z <= 0) points += sheet;
+    return points;
+}
+
+Candidate best_of(const ModelBox& box, const ImportOptions& options) {
+    std::optional<Candidate> best;
+    const auto consider = [&](UpAxis up, double metres, double points) {
+        const Kind kind = kind_of(metres * box.size_for(up), box.encloses(up), box.floor_cover(up));
+        points += kind.points + points_of_axis(box, up, kind);
+        if (kind.points > 0 && (!best || points > best->points)) best = {up, metres, kind, points};
+    };
+    for (const UpAxis up : {UpAxis::y, UpAxis::z}) {
+        if (options.up.value_or(up) != up) continue;
+        if (options.scale) consider(up, *options.scale, 0);
+        for (const Unit& unit : kUnits)
+            if (!options.scale) consider(up, unit.metres, unit.points);
+    }
+    return best.value_or(Candidate{options.up.value_or(UpAxis::y), options.scale.value_or(1), {}});
+}
+
+std::string reason_of_up(const ModelBox& box, const Candidate& guess) {
+    const UpAxis other = guess.up == UpAxis::y ? UpAxis::z : UpAxis::y;
+    constexpr double clear_share = 0.75;
+    const double share = box.level_share(guess.up);
+    if (share < clear_share && box.stands_at_zero(guess.up) && !box.stands_at_zero(other)) {
+        return fmt::format("because the model begins at {} = 0, as things that stand on the ground do",
+                           name_of(guess.up));
+    }
+    if (guess.kind.has_floors || guess.up == UpAxis::z) {
+        return fmt::format(
+            "because {:.0f} % of the faces across y or z lie across {}, as floors and ceilings do",
+            100 * share, name_of(guess.up));
+    }
+    return "because most OBJ files have y upwards";
+}
+
+std::string reason_of_scale(const Kind& kind) {
+    if (kind.words.empty()) return "because in no usual unit the model is smaller than 200 m";
+    return fmt::format("because the model is then {}", kind.words);
+}
 
 }  // namespace
 
-UpGuess guess_up(const MeshFile& file) {
-    constexpr double kAcross = 0.996;  // cosine of 5 degrees
-    // Of a room of usual size it is about 0.65, as of furniture, in which other faces may be larger.
-    constexpr double kClearShare = 0.75;
-    double across_y = 0, across_z = 0;
-    for (const auto& [a, b, c] : file.mesh.triangles) {
-        const std::vector<Vec3>& v = file.mesh.vertices;
-        const Vec3 area = cross(v[b] - v[a], v[c] - v[a]);
-        const double size = length(area);
-        if (std::abs(area.y) > kAcross * size) across_y += size;
-        if (std::abs(area.z) > kAcross * size) across_z += size;
-    }
-    const UpAxis up = across_z > across_y ? UpAxis::z : UpAxis::y;
-    const double both = across_y + across_z;
-    if (!(both > 0))
-        return {
-            UpAxis::y,
-            "up = \"y\", because no face is level in either direction, and most OBJ files have y upwards."};
-    const double share = std::max(across_y, across_z) / both;
-    const Extent extent = extent_of_triangles(file);
-    const bool stands_on_y = extent.stands_at_zero(UpAxis::y), stands_on_z = extent.stands_at_zero(UpAxis::z);
-    if (share < kClearShare && stands_on_y != stands_on_z) {
-        const UpAxis standing = stands_on_z ? UpAxis::z : UpAxis::y;
-        return {standing,
-                fmt::format("up = \"{0}\", because the model begins at {0} = 0, as things that stand on the "
-                            "ground do.",
-                            name_of(standing))};
-    }
-    return {up, fmt::format(
-                    "up = \"{}\", because {:.0f} % of the faces across y or z lie across {}, as floors and "
-                    "ceilings do.",
-                    name_of(up), 100 * share, name_of(up))};
-}
-
-ScaleGuess guess_scale(const MeshFile& file, UpAxis up) {
-    for (const double door : door_heights(file, up)) {
-        for (const Unit& unit : kUnits) {
-            const double height_m = door * unit.metres;
-            if (height_m < kLowestDoor_m || height_m > kHighestDoor_m) continue;
-            return {unit.metres, fmt::format("scale = {} ({}), because a door is then {:.3g} m high.",
-                                             unit.metres, unit.name, height_m)};
-        }
-    }
-    const Extent extent = extent_of_triangles(file);
-    const double height = height_along(extent.size(), up);
-    const double breadth = std::min(extent.size().x, up == UpAxis::z ? extent.size().y : extent.size().z);
-    const auto likelihood_in = [&](const Unit& unit) {
-        return likelihood(height * unit.metres, breadth * unit.metres);
-    };
-    // Metres stand if they are possible at all: halls are high, and models of furniture low.
-    const Unit* best = &kUnits[0];
-    if (likelihood_in(*best) == 0 || extent.longest() > kLongestInMetres) {
-        // Inches and feet are rare: they need the height of one storey.
-        const auto rank = [&](const Unit& unit) {
-            if (extent.longest() * unit.metres > kLongestInMetres) return 0;
-            const int of_height = likelihood_in(unit);
-            return unit.is_imperial ? std::max(of_height - 1, std::min(of_height, 1)) : of_height;
+PlacementGuess guess_placement(const MeshFile& file, const ImportOptions& options) {
+    const ModelBox box(file);
+    Candidate guess = best_of(box, options);
+    PlacementGuess result;
+    result.up = guess.up;
+    result.up_reason = reason_of_up(box, guess);
+    result.scale_reason = reason_of_scale(guess.kind);
+    for (const double door : door_heights(file, guess.up)) {
+        const auto fits = [&](const Unit& unit) {
+            return door * unit.metres >= kLowestDoor_m && door * unit.metres <= kHighestDoor_m;
         };
-        for (const Unit& unit : kUnits) {
-            if (rank(unit) > rank(*best)) best = &unit;
-        }
+        const auto unit = std::ranges::find_if(kUnits, fits);
+        if (options.scale || unit == kUnits.end()) continue;
+        guess.scale = unit->metres;
+        result.scale_reason = fmt::format("because a door is then {:.3g} m high", door * unit->metres);
+        break;
     }
-    const double height_m = height * best->metres;
-    if (likelihood_in(*best) == 0)
-        return {1,
-                fmt::format("scale = 1 (metres), because in no usual unit the height of {:.3g} is that of a "
-                            "room or of furniture.",
-                            height)};
-    return {best->metres, fmt::format("scale = {} ({}), because the model is then {:.3g} m high, {}.",
-                                      best->metres, best->name, height_m, words_for(likelihood_in(*best)))};
+    result.scale = guess.scale;
+    result.unit = unit_of(guess.scale);
+    result.size_m = guess.scale * box.size_for(guess.up);
+    return result;
 }
 
 }  // namespace stilb::io

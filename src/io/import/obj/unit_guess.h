@@ -1,28 +1,27 @@
 // The unit and the vertical axis of models that do not state them.
 #pragma once
 
-#include <optional>
 #include <string>
+#include <string_view>
 
+#include "base/vec.h"
 #include "io/import/import_settings.h"
 #include "io/mesh/mesh_file.h"
 
 namespace stilb::io {
 
-struct UpGuess {
+struct PlacementGuess {
     UpAxis up = UpAxis::y;
-    std::string reason;  ///< a sentence
-};
-/// The axis across which most area lies: floors and ceilings are the largest faces of most rooms. Where that
-/// is not clear, the axis along which the model begins at 0.
-UpGuess guess_up(const MeshFile& file);
-
-struct ScaleGuess {
     double scale = 1;  ///< metres per unit
-    std::string reason;
+    std::string_view unit = "metres";
+    Vec3 size_m;  ///< with z upwards
+    /// Why, as clauses: "because ...".
+    std::string up_reason, scale_reason;
 };
-/// The unit (metre, millimetre, centimetre, inch, foot) in which a door is about 2 m high and the whole is as
-/// high as a storey or some of them, and no longer than 200 m. `up`: the model's vertical axis.
-ScaleGuess guess_scale(const MeshFile& file, UpAxis up);
+
+/// The axis and the unit (metre, millimetre, centimetre, inch, foot) that together make the model what models
+/// usually are: a storey, a building, furniture ... A door decides about the unit. What the options state is
+/// kept.
+PlacementGuess guess_placement(const MeshFile& file, const ImportOptions& options = {});
 
 }  // namespace stilb::io
