@@ -14,7 +14,7 @@ namespace {
 std::vector<std::string> specular_warnings(const Scene& scene, std::string_view what) {
     if (!has_light_for_light_paths_only(scene)) return {};
     return {
-        fmt::format("{}: that light is missing from the readings. Area lights and luminous spheres "
+        fmt::format("{}: that light is missing. Area lights and luminous spheres "
                     "have no such limit.",
                     what)};
 }
@@ -38,6 +38,13 @@ std::vector<std::string> path_warnings(const Scene& scene) {
     return specular_warnings(scene,
                              "path tracing cannot find light that leaves a point or photometry light and is "
                              "reflected by a mirror or pane or meets solid glass before anything else");
+}
+
+std::vector<std::string> solution_warnings(const Scene& scene) {
+    return specular_warnings(
+        scene,
+        "a solution lacks light that leaves a point or photometry light and is reflected "
+        "by a mirror or pane or meets solid glass before anything else");
 }
 
 std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method) {

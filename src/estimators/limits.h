@@ -14,9 +14,10 @@ bool has_specular_surfaces(const Scene& scene);
 /// a mirror or glass before anything else.
 bool has_light_for_light_paths_only(const Scene& scene);
 
-/// Warnings of light that path tracing and local estimation leave out, where the scene has mirrors or glass
+/// Warnings of light that path tracing, solutions and local estimation leave out, where the scene has mirrors or glass
 /// and point or photometry lights; empty elsewhere.
 std::vector<std::string> path_warnings(const Scene& scene);
+std::vector<std::string> solution_warnings(const Scene& scene);
 std::vector<std::string> local_warnings(const Scene& scene);
 /// For methods on patches, where the scene has mirrors or glass.
 std::vector<std::string> patch_warnings(const Scene& scene, std::string_view method);

@@ -218,7 +218,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
         result.solution = walks.last_solution();
     });
     result.replicates = static_cast<int>(kSolutionReplicates);
-    result.warnings = estimators::patch_warnings(scene, kMethod);
+    result.warnings = estimators::solution_warnings(scene);
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);
     return result;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <string>
 
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "run/run.h"
@@ -133,6 +134,18 @@ TEST(Solve, ThingsOnTheFloorTakeNoLight) {
     EXPECT_NEAR(means.solved.value, means.traced.value, 0.01 * means.traced.value);
 }
 
+/// A ray may meet the leg where the patch in the same plane is the top's, whose light has more terms.
+TEST(Solve, AGlossyTopMayStandOnItsLeg) {
+    Scene scene = diffuse_room();
+    add_object(scene, Box{{1.6, 0.6, 1}, {3.2, 2.2, 1.05}}, Plastic({Rgb::grey(0.4), 1.5, 0.15}));
+    // As above, patches leave an error.
+    const Means means = means_of(scene, 96, 512);
+    EXPECT_NEAR(means.solved.value, means.traced.value, 0.015 * means.traced.value);
+    for (Light& light : scene.lights) light.source = lights::scaled(light.source, Rgb::grey(1e-3));
+    EXPECT_NEAR(picture_of_solution(scene, 96, 1).mean_luminance_cd_m2, 1e-3 * means.solved.value,
+                0.02e-3 * means.solved.value);
+}
+
 /// The areas of fine patches below a box that stands a millimetre above the floor [m2].
 struct AreasInGap {
     double at_rim_m2 = 1, in_middle_m2 = 1;  ///< the smallest
@@ -172,6 +185,25 @@ TEST(Solve, MirrorsCastLight) {
     double mean = 0;
     for (const Half bias : biases) mean += double{to_float(bias)} / static_cast<double>(biases.size());
     EXPECT_GT(mean, 0.03);
+}
+
+/// Light by mirrors is part of a solution; of points it is found by no ray from a vertex.
+TEST(Solve, WarnsOfLightThatMirrorsBringFromPointsOnly) {
+    Scene scene = diffuse_room();
+    add_object(scene, Rectangle{{0.02, 0.2, 0.2}, {0, 2.6, 0}, {0, 0, 2.4}}, Mirror{Rgb::grey(0.9)});
+    const auto warns_of_mirrors = [&] {
+        const SolveResult solved = solve(scene, options_of(16));
+        const RenderResult picture = render_solution(scene, camera(), solved.solution);
+        const auto names_mirrors = [](const std::string& warning) {
+            return warning.find("mirror") != warning.npos;
+        };
+        const bool solution_warns = std::ranges::any_of(solved.warnings, names_mirrors);
+        EXPECT_EQ(std::ranges::any_of(picture.warnings, names_mirrors), solution_warns);
+        return solution_warns;
+    };
+    EXPECT_TRUE(warns_of_mirrors());
+    scene.lights.erase(scene.lights.begin() + 1);
+    EXPECT_FALSE(warns_of_mirrors());
 }
 
 /// Groups are apart: dimmed, the light is that of a scene with dimmed lamps.

@@ -25,8 +25,6 @@ static_assert(std::endian::native == std::endian::little, "numbers are written a
 constexpr std::uint32_t kVersion = 3;
 /// Magic, version, size and hash.
 constexpr std::size_t kHeaderSize = kSolutionBeginning.size() + 4 + 8 + 8;
-/// No solution is as large; a damaged or hostile file may say that it is.
-constexpr std::uint64_t kLargestContents = std::uint64_t{1} << 31;
 
 /// Numbers, or structs of numbers of one size, which have no gaps.
 template <typename T>
@@ -191,7 +189,8 @@ std::string header_of(std::string_view body) {
 std::string uncompressed(std::string_view body, const std::string& name) {
     ByteReader bytes(body, kHeaderSize, name);
     const auto size = bytes.take<std::uint64_t>("the size of the contents");
-    if (size > kLargestContents) bytes.fail(fmt::format("contents of {} bytes are too large", size));
+    if (size > estimators::kMostStoredBytes)
+        bytes.fail(fmt::format("contents of {} bytes are too large", size));
     auto contents = gunzip(body.substr(sizeof size), static_cast<std::size_t>(size));
     if (!contents) bytes.fail("the contents cannot be decompressed");
     return *std::move(contents);

@@ -5,6 +5,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <utility>
 
 #include "base/parallel.h"
@@ -73,9 +74,9 @@ struct LightGather::GatheredRay {
     transport::Path path;
     bool stands = false;             ///< on a surface that scatters
     std::span<Rgb> once{}, twice{};  ///< of groups [cd/m2]
-    /// What is to be added to the luminance of the vertices' light to make it that of the ray's own
-    /// replicate.
-    double own_cd_m2 = 0;
+    /// What is gathered twice, by all groups, if its replicate were alone. A sum of terms of which none is
+    /// negative: a difference from the light of all replicates would leave rounding errors of either sign.
+    Rgb own_cd_m2{};
 };
 
 /// Corners of a patch that carry light.
@@ -115,6 +116,12 @@ LightGather::LightGather(const PatchTransport& coarse, const TermSums& walks, st
     }
     find_origins(is_lit);
     add_direct_light();
+    require_storable({.patches = fine.patches.count(),
+                      .vertices = fine.patches.vertices.size(),
+                      .lit_vertices = vertices_.count(),
+                      .terms = vertices_.terms(),
+                      .groups = groups.count(),
+                      .replicates = replicates});
     rays_.resize(vertices_.count());
     sums_.resize(groups.count() * vertices_.terms());
     replicate_lx_.resize(vertices_.count() * replicates_);
@@ -266,7 +273,7 @@ void LightGather::gather(std::uint32_t first, std::uint32_t last) {
     }
     const auto locations = find_patch_locations(fine_caster_, points, rays::Coherence::scattered);
     for (std::size_t i = 0; i < standing.size(); ++i) reflect(*standing[i], locations[i]);
-    for (const GatheredRay& ray : rays) {
+    for (GatheredRay& ray : rays) {
         add_of_lamps(ray);
         add(ray);
     }
@@ -303,11 +310,12 @@ void LightGather::follow(std::span<GatheredRay> rays) const {
 
 /// Light that mirrors and glass bring from a lamp is light that was reflected; direct light, also through
 /// panes, is left out.
-void LightGather::add_of_lamps(const GatheredRay& ray) const {
+void LightGather::add_of_lamps(GatheredRay& ray) const {
     if (!(ray.path.luminance_cd_m2.max() > 0)) return;
     const std::size_t group = group_of(ray.path);
     ray.once[group] += ray.path.luminance_cd_m2;
     ray.twice[group] += ray.path.luminance_cd_m2;
+    ray.own_cd_m2 += ray.path.luminance_cd_m2;
 }
 
 /// The group of the lamp that a path ends on, or of the light from outside.
@@ -331,6 +339,7 @@ void LightGather::reflect(GatheredRay& ray, const std::optional<PatchLocation>& 
     } else {
         std::ranges::copy(ray.twice, ray.once.begin());
     }
+    for (const Rgb& light : ray.twice) ray.own_cd_m2 += light;
     if (location) {
         const std::uint32_t parent = fine_.parents[fine_.patches.patch_of(location->side)];
         const bool is_front = fine_.patches.is_front(location->side);
@@ -339,6 +348,7 @@ void LightGather::reflect(GatheredRay& ray, const std::optional<PatchLocation>& 
     }
     for (Rgb& light : ray.once) light *= path.throughput;
     for (Rgb& light : ray.twice) light *= path.throughput;
+    ray.own_cd_m2 *= path.throughput;
 }
 
 void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side) const {
@@ -348,7 +358,9 @@ void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side)
     const std::span<FloatRgb> used(factors.data(), count);
     const Frame frame = frame_of(coarse_.patches, coarse_side);
     const Vec3 out = frame.to_local(ray.path.outgoing);
-    interpolate_factors(tables_[index_of(ray.path.hit.material)], {out.x, out.y, std::abs(out.z)}, used);
+    // Not the material that the ray met: where two objects lie in one plane, that may be the other one's.
+    const MaterialId material = coarse_.patches.materials[coarse_.patches.patch_of(coarse_side)];
+    interpolate_factors(tables_[index_of(material)], {out.x, out.y, std::abs(out.z)}, used);
     const double scale = 1 / static_cast<double>(walks_.steps());
     for (std::size_t g = 0; g < ray.once.size(); ++g)
         ray.once[g] += reflected_cd_m2(walks_.sums_of(g, coarse_side), used) * scale;
@@ -371,7 +383,7 @@ void LightGather::add_of_vertices(GatheredRay& ray, const PatchLocation& locatio
         ray.twice[g] += reflected;
         whole += reflected;
     }
-    ray.own_cd_m2 = (corners.source_share - 1) * (ray.path.throughput * whole).luminance();
+    ray.own_cd_m2 += corners.source_share * whole;
 }
 
 auto LightGather::lit_corners(const PatchLocation& location, std::uint32_t replicate) const -> LitCorners {
@@ -397,15 +409,15 @@ void LightGather::add(const GatheredRay& ray) {
     const std::uint32_t count = vertices_.terms_of(ray.vertex);
     if (count > 1) basis_.evaluate(ray.local_direction, values);
     const bool is_first = source_.empty();
-    const std::size_t own = ray.vertex * replicates_ + ray.replicate;
-    if (std::isfinite(ray.own_cd_m2)) replicate_lx_[own] += kPi * ray.own_cd_m2;
+    const Rgb own_lx =
+        kPi * (is_first ? std::accumulate(ray.once.begin(), ray.once.end(), Rgb()) : ray.own_cd_m2);
+    if (own_lx.is_finite()) replicate_lx_[ray.vertex * replicates_ + ray.replicate] += own_lx.luminance();
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         const Rgb once_lx = ray.once[g] * kPi, twice_lx = ray.twice[g] * kPi;
         if (!once_lx.is_finite() || !twice_lx.is_finite()) continue;
         const Rgb& gathered_lx = is_first ? once_lx : twice_lx;
         const std::size_t first = first_of(g, ray.vertex);
         for (std::uint32_t k = 0; k < count; ++k) add_to(sums_[first + k], gathered_lx * values[k]);
-        replicate_lx_[own] += gathered_lx.luminance();
         if (!is_first) difference_lx_[ray.vertex] += twice_lx.luminance() - once_lx.luminance();
     }
 }

@@ -76,7 +76,7 @@ class LightGather {
     void reflect(GatheredRay& ray, const std::optional<PatchLocation>& location) const;
     void add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side) const;
     void add_of_vertices(GatheredRay& ray, const PatchLocation& location) const;
-    void add_of_lamps(const GatheredRay& ray) const;
+    void add_of_lamps(GatheredRay& ray) const;
     LitCorners lit_corners(const PatchLocation& location, std::uint32_t replicate) const;
     void add(const GatheredRay& ray);
     std::size_t group_of(const transport::Path& ended) const;

@@ -1,5 +1,7 @@
 #include "estimators/patch_light/solution/patch_solution.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -117,6 +119,27 @@ void require_light(const PatchSolution& solution, const Scene& scene) {
 }
 
 }  // namespace
+
+void require_storable(const SolutionSizes& sizes) {
+    constexpr std::uint64_t rest = std::uint64_t{1} << 20;  // names and counts
+    constexpr std::size_t patch_bytes =
+        sizeof(Triangle) + sizeof(patches::Float3) + sizeof(float) + sizeof(MaterialId);
+    constexpr std::size_t exponent_bytes = 2, number_bytes = 4;
+    const std::uint64_t lit_bytes = sizeof(std::uint32_t) + (sizes.replicates + 1) * sizeof(Half);
+    const std::uint64_t term_bytes = exponent_bytes + kBands * number_bytes * sizes.groups;
+    const std::uint64_t bytes = rest + sizes.patches * patch_bytes +
+                                sizes.vertices * sizeof(patches::Float3) + sizes.lit_vertices * lit_bytes +
+                                sizes.terms * term_bytes;
+    if (bytes <= kMostStoredBytes) return;
+    throw InputError(
+        fmt::format("the solution would take {:.2g} GB, but its file can hold {:.2g} GB: {} patches, {} "
+                    "groups of lights, {} "
+                    "numbers for the light of each. Take larger patches (--patch), a lower --degree for "
+                    "glossy surfaces, or fewer "
+                    "groups of lights.",
+                    1e-9 * static_cast<double>(bytes), 1e-9 * static_cast<double>(kMostStoredBytes),
+                    sizes.patches, sizes.groups, sizes.terms));
+}
 
 PatchSolution relit(PatchSolution solution, std::span<const Rgb> factors) {
     std::vector<HalfRgb> sums(solution.terms.empty() ? 0 : solution.terms[0].size());

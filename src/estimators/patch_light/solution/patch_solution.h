@@ -37,6 +37,18 @@ struct PatchSolution {
     std::vector<Half> bias;
 };
 
+/// What a solution's file may hold before compression. A damaged or hostile one may claim to hold more.
+inline constexpr std::uint64_t kMostStoredBytes = std::uint64_t{1} << 31;
+
+/// Sizes of a solution.
+struct SolutionSizes {
+    std::size_t patches = 0, vertices = 0, lit_vertices = 0;
+    std::size_t terms = 0;  ///< of all lit vertices
+    std::size_t groups = 0, replicates = 0;
+};
+/// Throws InputError where the file would hold more: before the light is computed.
+void require_storable(const SolutionSizes& sizes);
+
 /// The same light as one group, each group's multiplied by its factor.
 PatchSolution relit(PatchSolution solution, std::span<const Rgb> factors);
 

@@ -49,9 +49,7 @@ class SolutionPicture final : public Estimator {
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
         return std::make_unique<SolutionPass>(*this, pass);
     }
-    std::vector<std::string> warnings() const override {
-        return patch_warnings(tracing_.scene, "ray-bundle");
-    }
+    std::vector<std::string> warnings() const override { return solution_warnings(tracing_.scene); }
 
   private:
     class SolutionPass final : public PicturePass {
