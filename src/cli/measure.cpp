@@ -9,6 +9,7 @@
 
 #include "cli/command_line.h"
 #include "cli/measure_flags.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/scene_argument.h"
@@ -55,16 +56,19 @@ std::vector<std::string> json_files(const MeasureRequest& request) {
 }
 
 /// Writes the files that the request names.
-void write_files(const RunResult& result, const MeasureRequest& request) {
+void write_files(const RunResult& result, const MeasureRequest& request, Outputs& outputs) {
     const auto replicates =
         request.has_replicates ? io::ReplicateValues::written : io::ReplicateValues::left_out;
     for (const std::string& file : json_files(request))
-        io::replace_file(file, io::json_parts(result, request.scene, replicates));
-    if (!request.csv_directory.empty()) io::write_results_csv(result, request.csv_directory);
+        outputs.write([&] { io::replace_file(file, io::json_parts(result, request.scene, replicates)); });
+    if (!request.csv_directory.empty())
+        outputs.write([&] { io::write_results_csv(result, request.csv_directory); });
     if (!request.picture.empty()) {
         plot::FalseColourOptions options;
         options.isolines = true;
-        draw_false_colour(plot::picture_of(result, request.scene, options), options, request.picture);
+        outputs.write([&] {
+            draw_false_colour(plot::picture_of(result, request.scene, options), options, request.picture);
+        });
     }
 }
 
@@ -135,13 +139,14 @@ int run_measure(const MeasureRequest& request) {
                               &watch_for_interrupt());
     }
     add_warnings(result, file.warnings);
-    write_files(result, request);  // before all messages: the terminal may be closed by now
+    Outputs outputs;
+    write_files(result, request, outputs);  // before all messages: the terminal may be closed by now
     if (!flags.run.quiet) print_warnings(result.warnings);
     if (is_for_radiance) {
         fmt::print("{}", io::to_irradiance_lines(result));
     } else if (std::ranges::none_of(json_files(request), io::is_standard_output))
         fmt::print("{}", to_table(result) + shortfall_text(result, ""));
-    return flags.exit_code_of(result);
+    return outputs.conclude(flags.exit_code_of(result));
 }
 
 }  // namespace

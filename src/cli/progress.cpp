@@ -41,6 +41,8 @@ void write_message(const std::string& text) { std::fputs(text.c_str(), stderr); 
 
 }  // namespace
 
+void print_failure(const std::string& message) { write_message(fmt::format("stilb: {}\n", message)); }
+
 std::FILE* messages_beside(const std::string& output) {
     return io::is_standard_output(output) ? stderr : stdout;
 }

@@ -1,4 +1,4 @@
-// The progress and the warnings of a command, on stderr.
+// The progress, the warnings and the failures of a command, on stderr.
 #pragma once
 
 #include <atomic>
@@ -20,6 +20,9 @@ std::FILE* messages_beside(const std::string& output);
 
 /// How progress is shown where stderr is not a terminal.
 enum class OffTerminal { nothing, plain_lines };
+
+/// What a command fails by, on stderr. Where that cannot be written, the message is lost, but nothing else.
+void print_failure(const std::string& message);
 
 /// Rewrites one line of stderr and clears it at the end. Where stderr is not a terminal, it shows nothing, or
 /// a plain line every second.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
@@ -70,7 +71,10 @@ class RenderProgress final : public TerminalProgress {
         return !request_.preview.empty() && (shown_s_ == 0 || elapsed_s_ - shown_s_ >= kPreviewEvery_s);
     }
     void show(const Pixels& pixels) override {
-        write_picture(picture_of(pixels, camera_, origin_), request_.preview, request_.tone);
+        // The disk may be full for a while. The end of the run writes the preview again, and reports a
+        // failure.
+        Outputs().write(
+            [&] { write_picture(picture_of(pixels, camera_, origin_), request_.preview, request_.tone); });
         shown_s_ = elapsed_s_;
     }
 
@@ -264,8 +268,11 @@ int run_render(RenderRequest request) {
     add_warnings(result, file.warnings);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
     // The files come before all messages: the terminal may be closed by now.
-    const auto curve = write_picture(picture, request.output, request.tone);
-    if (!request.preview.empty()) write_picture(picture, request.preview, request.tone);
+    Outputs outputs;
+    std::optional<io::ToneCurve> curve;
+    outputs.write([&] { curve = write_picture(picture, request.output, request.tone); });
+    if (!request.preview.empty())
+        outputs.write([&] { write_picture(picture, request.preview, request.tone); });
     if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, sensor, request.output);
     if (request.is_first_look)
@@ -274,7 +281,7 @@ int run_render(RenderRequest request) {
     if (curve)
         fmt::print(messages_beside(request.output), "{}: exposure {:.3g} per cd/m², white {:.0f} K\n",
                    request.output, curve->exposure(), curve->white_k());
-    return result.converged ? kExitDone : kExitStoppedEarly;
+    return outputs.conclude(result.converged ? kExitDone : kExitStoppedEarly);
 }
 
 }  // namespace

@@ -13,6 +13,7 @@
 #include "cli/browser.h"
 #include "cli/command_line.h"
 #include "cli/measure_flags.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/scene_argument.h"
@@ -133,13 +134,17 @@ class Reporting {
     bool lacks_views_ = false;
 };
 
-void print_summary(const report::Report& report, const std::string& output, std::size_t bytes) {
+/// `bytes`: of the page, where it could be written.
+void print_summary(const report::Report& report, const std::string& output,
+                   std::optional<std::size_t> bytes) {
     std::FILE* const stream = messages_beside(output);
     if (report.readings) {
         fmt::print(stream, "{}{}", end_of_table(*report.readings), shortfall_text(*report.readings, output));
     }
-    fmt::print(stream, "{}: {:.1f} MB, opens in any browser and prints on A4\n", output,
-               1e-6 * static_cast<double>(bytes));
+    if (bytes) {
+        fmt::print(stream, "{}: {:.1f} MB, opens in any browser and prints on A4\n", output,
+                   1e-6 * static_cast<double>(*bytes));
+    }
 }
 
 int run_report(const ReportRequest& request) {
@@ -156,10 +161,11 @@ int run_report(const ReportRequest& request) {
     report::Report& report = reporting.report();
     report.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
     const std::string page = to_html(report);
-    io::replace_file(request.output, page);  // before all messages: the terminal may be closed by now
+    Outputs outputs;  // before all messages: the terminal may be closed by now
+    const bool is_written = outputs.write([&] { io::replace_file(request.output, page); });
     if (!request.flags.run.quiet) print_warnings(report.warnings);
-    print_summary(report, request.output, page.size());
-    return reporting.exit_code();
+    print_summary(report, request.output, is_written ? std::optional(page.size()) : std::nullopt);
+    return outputs.conclude(reporting.exit_code());
 }
 
 }  // namespace

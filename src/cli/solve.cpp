@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "cli/command_line.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
@@ -27,13 +28,16 @@ struct SolveRequest {
     RunFlags flags;
 };
 
-void print_summary(const SolveResult& result, const io::StoredSolution& stored, std::size_t bytes,
-                   const std::string& output) {
+/// `bytes`: of the file, where it could be written.
+void print_summary(const SolveResult& result, const io::StoredSolution& stored,
+                   std::optional<std::size_t> bytes, const std::string& output) {
     std::FILE* const stream = messages_beside(output);
     const estimators::PatchSolution& solution = stored.solution;
-    fmt::print(stream, "{}: light at {} vertices, {} {} of lights, {:.1f} MB\n", output,
-               solution.lit_vertices.size(), solution.groups.size(),
-               solution.groups.size() == 1 ? "group" : "groups", 1e-6 * static_cast<double>(bytes));
+    if (bytes) {
+        fmt::print(stream, "{}: light at {} vertices, {} {} of lights, {:.1f} MB\n", output,
+                   solution.lit_vertices.size(), solution.groups.size(),
+                   solution.groups.size() == 1 ? "group" : "groups", 1e-6 * static_cast<double>(*bytes));
+    }
     fmt::print(stream,
                "95 % of the light falls on places with a 95 % interval within {} of their illuminance\n",
                io::percent(result.attained_error));
@@ -58,10 +62,12 @@ int run_solve(const SolveRequest& request) {
     const io::StoredSolution solution =
         io::stored_solution(result, std::move(result.solution), file, request.output);
     // Before all messages: the terminal may be closed by now.
-    const std::size_t bytes = write_solution_file(solution, request.output);
+    Outputs outputs;
+    std::optional<std::size_t> bytes;
+    outputs.write([&] { bytes = write_solution_file(solution, request.output); });
     if (!request.flags.quiet) print_warnings(result.warnings);
     print_summary(result, solution, bytes, request.output);
-    return result.converged ? kExitDone : kExitStoppedEarly;
+    return outputs.conclude(result.converged ? kExitDone : kExitStoppedEarly);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 
 #include "cli/browser.h"
 #include "cli/command_line.h"
+#include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/results_table.h"
 #include "cli/run_flags.h"
@@ -188,17 +189,19 @@ walk::Handlers handlers_of(const io::SceneFile& file, const walk::LiveWalk& walk
             }};
 }
 
-/// Prints how the computation ended, and keeps the solution where the user wants it.
-void conclude(const ViewRequest& request, const Input& input, SolveResult& result) {
-    if (input.stored) return;
+/// Prints how the computation ended, and keeps the solution where the user wants it. Returns the exit code.
+int conclude(const ViewRequest& request, const Input& input, SolveResult& result) {
+    const int exit_code = result.converged ? kExitDone : kExitStoppedEarly;
+    if (input.stored) return exit_code;
     if (input.is_first_look) result.warnings.clear();  // of lamps that are no part of the scene
     const SolveResult& summary = result;
+    Outputs outputs;
     std::optional<std::size_t> bytes;
     const bool is_kept = !request.output.empty() && !is_page(request.output);
     if (is_kept) {
-        bytes = write_solution_file(
-            io::stored_solution(result, std::move(result.solution), input.file, request.output),
-            request.output);
+        const io::StoredSolution solution =
+            io::stored_solution(result, std::move(result.solution), input.file, request.output);
+        outputs.write([&] { bytes = write_solution_file(solution, request.output); });
     }
     if (!request.flags.quiet) print_warnings(summary.warnings);
     fmt::print("95 % of the light is exact within {}\n", io::percent(summary.attained_error));
@@ -208,9 +211,8 @@ void conclude(const ViewRequest& request, const Input& input, SolveResult& resul
     if (bytes)
         fmt::print("{}: the solution, {:.1f} MB\n", request.output, 1e-6 * static_cast<double>(*bytes));
     std::fflush(stdout);
+    return outputs.conclude(exit_code);
 }
-
-int exit_code(const SolveResult& result) { return result.converged ? kExitDone : kExitStoppedEarly; }
 
 /// The page with its origin in its head, and with the rule that it loads nothing.
 std::string marked(std::string page) {
@@ -230,11 +232,14 @@ int write_page(const ViewRequest& request, const Input& input, Viewing& viewing)
     SolveResult result = viewing.finish();
     const std::string page = marked(
         walk::self_contained_page(*viewing.walk().scene(), *viewing.walk().light(), walk::page_files()));
-    io::replace_file(request.output, page);
-    conclude(request, input, result);
-    fmt::print("{}: {:.1f} MB, opens in any browser\n", request.output,
-               1e-6 * static_cast<double>(page.size()));
-    return exit_code(result);
+    Outputs outputs;
+    const bool is_written = outputs.write([&] { io::replace_file(request.output, page); });
+    const int exit_code = conclude(request, input, result);
+    if (is_written) {
+        fmt::print("{}: {:.1f} MB, opens in any browser\n", request.output,
+                   1e-6 * static_cast<double>(page.size()));
+    }
+    return outputs.conclude(exit_code);
 }
 
 /// Serves the walk until the user interrupts.
@@ -258,10 +263,10 @@ int serve(const ViewRequest& request, const Input& input, Viewing& viewing) {
         server.reset();
     }
     SolveResult result = viewing.finish();
-    conclude(request, input, result);
+    const int exit_code = conclude(request, input, result);
     while (!interrupt) std::this_thread::sleep_for(kGlance);
     meter.cancel();
-    return exit_code(result);
+    return exit_code;
 }
 
 int run_view(const ViewRequest& request) {

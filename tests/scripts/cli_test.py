@@ -3,6 +3,7 @@
 import csv
 import json
 import os
+import signal
 import subprocess
 import unittest
 
@@ -133,6 +134,94 @@ class FullDiskTest(CommandLineTest):
                                         timeout=MOST_SECONDS)
                 self.assertEqual(result.returncode, 1)
                 self.assertRegex(result.stderr, r"^stilb: standard output cannot be written[^\n]*\n$")
+
+
+    def test_what_is_computed_is_printed_all_the_same(self):
+        self.scene.write_text(ROOM + CAMERA.replace("[640, 480]", "[16, 12]"))
+        few, patch = ["--paths", 64], ["--paths", 16, "--patch", 2]
+        (self.folder / "table").mkdir()
+        for name, command, printed in (
+                ("out.json", ["measure", self.scene, *few, "-o"], r"desk[^\0]*mean .* lx"),
+                ("desk.png", ["measure", self.scene, *few, "--sensor", "desk", "--falsecolor"], "mean .* lx"),
+                ("table/desk.csv", ["measure", self.scene, *few, "--csv"], "mean .* lx"),
+                ("room.solution", ["solve", self.scene, *patch, "-o"], "16 steps in"),
+                ("view.exr", ["render", self.scene, "--paths", 4, "-o"], "mean luminance"),
+                ("view.png", ["render", self.scene, "--paths", 4, "-o"], "mean luminance"),
+                ("page.html", ["report", self.scene, *few, "--view-passes", 2, "-o"], "64 paths in"),
+                ("walk.html", ["view", self.scene, *patch, "-o"], "16 steps in")):
+            with self.subTest(output=name):
+                output = self.folder / name
+                output.symlink_to("/dev/full")
+                result = run(*command, output.parent if "--csv" in command else output)
+                self.assertEqual(result.returncode, 1, result.stderr)
+                self.assertRegex(result.stdout, printed)
+                self.assertRegex(result.stderr, rf"stilb: cannot write '.*{output.name}'.*space left")
+                self.assertNotIn("MB", result.stdout)
+
+    def test_one_file_that_cannot_be_written_costs_no_other(self):
+        (self.folder / "desk.png").symlink_to("/dev/full")
+        result = run("measure", self.scene, "--paths", 64, "--sensor", "desk", "--falsecolor", "desk.png", "-o", "out.json",
+                     "--csv", "table", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        json.loads((self.folder / "out.json").read_text())
+        self.assertTrue((self.folder / "table/desk.csv").exists())
+
+    def test_a_preview_that_cannot_be_written_ends_no_picture(self):
+        self.scene.write_text(ROOM + CAMERA.replace("[640, 480]", "[16, 12]"))
+        (self.folder / "now.png").symlink_to("/dev/full")
+        result = run("render", self.scene, "--paths", 64, "-o", "view.png", "--preview", "now.png", cwd=self.folder)
+        self.assertEqual(result.returncode, 1)
+        self.assertIn("now.png", result.stderr)
+        self.assertTrue((self.folder / "view.png").read_bytes().endswith(b"IEND\xaeB`\x82"))
+
+
+class StreamsTest(CommandLineTest):
+    """Standard streams that are closed, or whose reader goes."""
+
+    def bash(self, command):
+        return subprocess.run(["bash", "-c", command, "bash", PROGRAM], cwd=self.folder, capture_output=True, text=True,
+                              timeout=MOST_SECONDS)
+
+    def test_closed_streams_are_no_files(self):
+        for closed, code in ((">&- 2>&-", 1), ("<&- >&- 2>&-", 1), (">&-", 1), ("2>&-", 0), ("<&- 2>&-", 0)):
+            with self.subTest(closed=closed):
+                output = self.folder / "out.json"
+                output.unlink(missing_ok=True)
+                result = self.bash(f'"$1" measure room.toml --paths 64 -o out.json {closed}')
+                self.assertEqual(result.returncode, code)
+                self.assertEqual(len(json.loads(output.read_text())["sensors"]), 2)
+                self.assertEqual("desk" in result.stdout, code == 0)
+                self.assertEqual("standard output cannot be written" in result.stderr, closed == ">&-")
+        for command in ("info room.toml", "measure nothing.toml", "solve room.toml --paths 8 --patch 2 -o x.solution", "help"):
+            self.assertIn(self.bash(f'"$1" {command} <&- >&- 2>&-').returncode, (1, 2), command)
+        self.assertEqual((self.folder / "x.solution").read_bytes()[:8], b"STILBSOL")
+
+    def test_messages_that_cannot_be_written_end_nothing(self):
+        if not os.path.exists("/dev/full"):
+            self.skipTest("this system has no /dev/full")
+        result = self.bash('"$1" measure room.toml --paths 64 --progress 2> /dev/full')
+        self.assertEqual(result.returncode, 0)
+        self.assertIn("desk", result.stdout)
+        self.assertEqual(self.bash('"$1" measure nothing.toml 2> /dev/full').returncode, 2)
+
+    def test_a_reader_that_goes_ends_the_output_only(self):
+        self.write("long.toml", ROOM.replace("count = [3, 2]", "count = [60, 40]"))
+        result = self.bash('"$1" measure long.toml --paths 64 --json -o out.json | head -n 1; exit ${PIPESTATUS[0]}')
+        self.assertEqual((result.returncode, result.stdout, result.stderr), (128 + signal.SIGPIPE, "{\n", ""))
+        json.loads((self.folder / "out.json").read_text())
+
+    def test_a_reader_of_progress_that_goes_ends_no_run(self):
+        result = self.bash('("$1" measure room.toml --time 3 --error 0.00001% --progress -o out.json 2>&1 > table; '
+                           'echo $? > code) | head -n 1')
+        self.assertRegex(result.stdout, r"^\d")
+        self.assertEqual((self.folder / "code").read_text(), "3\n")
+        self.assertEqual(json.loads((self.folder / "out.json").read_text())["stopped"], "time over")
+        self.assertIn("desk", (self.folder / "table").read_text())
+
+    def test_names_are_as_long_as_they_may_be(self):
+        name = "ä" * 125 + ".json"  # 255 bytes
+        self.assertEqual(run("measure", self.scene, "--paths", 64, "-o", name, cwd=self.folder).returncode, 0)
+        json.loads((self.folder / name).read_text())
 
 
 class RenderTest(CommandLineTest):

@@ -21,7 +21,9 @@ using Parts = std::span<const std::string_view>;
 
 InputError cannot_write(const std::filesystem::path& path) {
     return InputError(
-        fmt::format("cannot write '{}'. Check that its folder exists and is writable.", path.string()));
+        fmt::format("cannot write '{}'. Check that its folder exists and is writable, and that its disk has "
+                    "space left.",
+                    path.string()));
 }
 
 /// Whether the path is a device, say, which must not be replaced by a plain file.
@@ -49,16 +51,19 @@ void write_parts(const std::filesystem::path& path, Parts parts) {
 std::atomic<const char*> unfinished = nullptr;
 static_assert(std::atomic<const char*>::is_always_lock_free, "a signal handler reads it");
 
-constexpr std::size_t kLongestName = 255;  ///< of a file, in bytes, in the usual file systems
+/// As long as a file system's names may be, even where the other name is.
+std::filesystem::path temporary_name(const std::filesystem::path& beside) {
+    constexpr std::size_t most_bytes = 255;
+    const std::string ending = fmt::format(".{:08x}", std::random_device()());
+    return beside.parent_path() / (beside.filename().string().substr(0, most_bytes - ending.size()) + ending);
+}
 
 /// A new file beside another one, in the same folder, since a file cannot be renamed into another file
 /// system. It is the unfinished one, and is removed at the end unless it has taken the other one's name.
 class TemporaryFile {
   public:
-    TemporaryFile(const std::filesystem::path& beside, Parts parts) : beside_(beside), path_(beside) {
-        const std::string end = fmt::format(".{:08x}", std::random_device()());
-        const std::string name = beside.filename().string();
-        path_.replace_filename(name.substr(0, kLongestName - end.size()) + end);
+    TemporaryFile(const std::filesystem::path& beside, Parts parts)
+        : beside_(beside), path_(temporary_name(beside)) {
         const char* none = nullptr;
         is_announced_ = unfinished.compare_exchange_strong(none, path_.c_str());
         try {
