@@ -296,16 +296,51 @@ TEST_F(ServerTest, ClientsThatDoNotReadAreDropped) {
     EXPECT_EQ(get(path("state")).status, 200);
 }
 
-TEST_F(ServerTest, TooManyConnectionsAreClosed) {
-    start({.connections = 8, .idle = milliseconds(500)});
+/// For longer than a client waits.
+constexpr milliseconds kForever{60'000};
+
+/// Silent clients, or those that begin a request and never end it.
+TEST_F(ServerTest, HeldConnectionsShutNobodyOut) {
+    for (const char* const begun : {"", "GET /"}) {
+        start({.connections = 8, .request = kForever, .idle = kForever});
+        std::vector<std::unique_ptr<Client>> clients;
+        for (int i = 0; i < 100; ++i) {
+            clients.push_back(std::make_unique<Client>(server_->port()));
+            clients.back()->send(begun);
+        }
+        EXPECT_EQ(clients.front()->rest(), "") << "the oldest is closed";
+        for (int i = 0; i < 20; ++i) EXPECT_EQ(get(path("state")).status, 200) << begun << i;
+    }
+}
+
+/// As many as there are places, one less and one more.
+TEST_F(ServerTest, ForOneMoreConnectionTheOldestIsClosed) {
+    for (const std::size_t count : {7, 8, 9}) {
+        start({.connections = 8, .idle = milliseconds(1000)});
+        std::vector<std::unique_ptr<Client>> clients;
+        for (std::size_t i = 0; i < count; ++i) {
+            clients.push_back(std::make_unique<Client>(server_->port()));
+            std::this_thread::sleep_for(milliseconds(5));  // accepted in this order
+        }
+        const auto begin = Clock::now();
+        EXPECT_EQ(clients.front()->rest(), "");
+        EXPECT_EQ(Clock::now() - begin < milliseconds(500), count == 9) << "of " << count;
+    }
+}
+
+/// The page's own connection stays when others that do not know the token come.
+TEST_F(ServerTest, ConnectionsWithTheTokenAreKeptLonger) {
+    start({.connections = 8, .request = kForever, .idle = kForever});
+    const std::string request = "GET " + path("state") + " HTTP/1.1\r\nHost: " + host() + "\r\n";
+    Client page(server_->port());
+    page.send(request + "\r\n");
+    std::this_thread::sleep_for(milliseconds(100));
     std::vector<std::unique_ptr<Client>> clients;
     for (int i = 0; i < 100; ++i) clients.push_back(std::make_unique<Client>(server_->port()));
-    const auto begin = Clock::now();
-    EXPECT_EQ(clients.back()->rest(), "");
-    EXPECT_LT(Clock::now() - begin, milliseconds(400));
-    clients.clear();
-    std::this_thread::sleep_for(milliseconds(300));
-    EXPECT_EQ(get(path("state")).status, 200);
+    EXPECT_EQ(clients.front()->rest(), "");
+    page.send(request + "Connection: close\r\n\r\n");
+    const std::string answers = page.rest();
+    EXPECT_NE(answers.find("200 OK", answers.find("200 OK") + 1), answers.npos) << "two answers";
 }
 
 TEST_F(ServerTest, VanishedClientsDoNoHarm) {

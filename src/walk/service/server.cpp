@@ -10,6 +10,7 @@
 #include <stdexcept>
 #include <thread>
 #include <utility>
+#include <vector>
 // Boost's coroutines need <utility> before them.
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/co_spawn.hpp>
@@ -102,16 +103,13 @@ std::string_view view_of(beast::string_view text) { return {text.data(), text.si
 /// The value of a header field; empty if the request has no such field.
 std::string_view value_of(const Request& request, http::field field) { return view_of(request[field]); }
 
-/// Counts itself while it lives.
-class Counted {
-  public:
-    explicit Counted(int& count) : count_(count) { ++count_; }
-    ~Counted() { --count_; }
-    Counted(const Counted&) = delete;
-    Counted& operator=(const Counted&) = delete;
+/// A connection that has a place among those that are kept.
+struct Connection {
+    explicit Connection(tcp::socket socket) : stream(std::move(socket)) {}
 
-  private:
-    int& count_;
+    beast::tcp_stream stream;
+    bool is_trusted = false;   ///< has asked with the token
+    bool is_answered = false;  ///< its request is being answered
 };
 
 /// Ends the connection after a refusal: reads and forgets, for a short time, what the client still sends.
@@ -207,16 +205,38 @@ class Server::Http {
             if (failure) {  // too many open files, say
                 asio::steady_timer pause(context_, std::chrono::milliseconds(50));
                 co_await pause.async_wait(asio::use_awaitable);
-            } else if (connections_ < limits_.connections) {
-                asio::co_spawn(context_, serve(beast::tcp_stream(std::move(socket))), asio::detached);
+            } else if (has_place()) {
+                const auto connection = std::make_shared<Connection>(std::move(socket));
+                connections_.push_back(connection);
+                asio::co_spawn(context_, serve(connection), asio::detached);
             }
         }
     }
 
+    /// Where all places are taken, ends a connection that waits: the oldest without the token, or else the
+    /// oldest of all. Otherwise programs that hold connections open would shut the user out. False where all
+    /// are being answered.
+    bool has_place() {
+        std::erase_if(connections_, [](const auto& connection) { return connection.expired(); });
+        if (connections_.size() < limits_.connections) return true;
+        const auto oldest_waiting = [&](bool is_trusted) {
+            return std::ranges::find_if(connections_, [&](const auto& weak) {
+                const std::shared_ptr<Connection> connection = weak.lock();
+                return !connection->is_answered && connection->is_trusted == is_trusted;
+            });
+        };
+        auto dropped = oldest_waiting(false);
+        if (dropped == connections_.end()) dropped = oldest_waiting(true);
+        if (dropped == connections_.end()) return false;
+        dropped->lock()->stream.close();  // ends serve()
+        connections_.erase(dropped);
+        return true;
+    }
+
     /// The requests of a connection, one after the other. Ends by an exception where the client goes, or
     /// takes longer than the limits say.
-    asio::awaitable<void> serve(beast::tcp_stream stream) {
-        const Counted counted(connections_);
+    asio::awaitable<void> serve(std::shared_ptr<Connection> connection) {
+        beast::tcp_stream& stream = connection->stream;
         stream.socket().set_option(tcp::no_delay(true));
         beast::flat_buffer buffer;
         do {
@@ -224,12 +244,13 @@ class Server::Http {
                 stream.expires_after(limits_.idle);
                 buffer.commit(co_await stream.async_read_some(buffer.prepare(4096), asio::use_awaitable));
             }
-        } while (co_await serve_one(stream, buffer));
+        } while (co_await serve_one(*connection, buffer));
         co_await end_gently(stream);
     }
 
     /// Whether another request may follow.
-    asio::awaitable<bool> serve_one(beast::tcp_stream& stream, beast::flat_buffer& buffer) {
+    asio::awaitable<bool> serve_one(Connection& connection, beast::flat_buffer& buffer) {
+        beast::tcp_stream& stream = connection.stream;
         stream.expires_after(limits_.request);
         RequestParser parser;
         parser.header_limit(static_cast<std::uint32_t>(limits_.header_bytes));
@@ -240,6 +261,7 @@ class Server::Http {
                                          asio::redirect_error(asio::use_awaitable, failure));
         std::optional<Answer> refused = failure ? answer_to_unread(failure) : refusal_of(parser);
         if (!failure && !refused) {  // the body of a refused request is never read
+            connection.is_trusted = true;
             co_await http::async_read(stream, buffer, parser,
                                       asio::redirect_error(asio::use_awaitable, failure));
             if (failure) refused = answer_to_unread(failure);
@@ -249,11 +271,13 @@ class Server::Http {
         const Request& request = parser.get();
         const bool is_open = !refused && request.keep_alive();
         if (!refused) {
+            connection.is_answered = true;
             stream.expires_never();
             refused = co_await computed_answer(request);
         }
         stream.expires_after(limits_.response);
         co_await send(stream, *refused, request.method() == http::verb::head, is_open);
+        connection.is_answered = false;
         co_return is_open;
     }
 
@@ -348,8 +372,8 @@ class Server::Http {
     ServerLimits limits_;
     std::string token_;
     int port_ = 0;
-    int connections_ = 0;
-    asio::io_context context_{1};  // outlives the workers, which hand it their answers
+    std::vector<std::weak_ptr<Connection>> connections_;  ///< the oldest first
+    asio::io_context context_{1};                         // outlives the workers, which hand it their answers
     asio::thread_pool workers_{kWorkers};
     tcp::acceptor acceptor_{context_};
     std::thread serving_;

@@ -28,7 +28,7 @@ struct Handlers {
 struct ServerLimits {
     std::size_t body_bytes = 64 * 1024;
     std::size_t header_bytes = 32 * 1024;
-    int connections = 64;                       ///< more are closed at once
+    std::size_t connections = 64;               ///< for one more, the oldest one that waits is closed
     std::chrono::milliseconds request{4000};    ///< for a request to arrive completely, from its first byte
     std::chrono::milliseconds idle{5000};       ///< between requests
     std::chrono::milliseconds response{60000};  ///< for a response to be taken
