@@ -14,7 +14,6 @@ namespace stilb::papers {
 namespace {
 
 constexpr std::uint64_t kReferenceWalks = 8;
-constexpr int kReferenceSteps = 1000;
 enum Purpose : std::uint64_t { kReference, kWalk };
 
 /// Pixels that show each side.
@@ -55,19 +54,19 @@ double difference(const std::vector<estimators::FloatRgb>& sides,
 }
 
 std::vector<estimators::FloatRgb> reference_of(const estimators::PatchTransport& transport,
-                                               const estimators::VisibleSides& seen) {
+                                               const estimators::VisibleSides& seen, int steps) {
     std::array<std::vector<estimators::FloatRgb>, kReferenceWalks> sums;
     parallel_for(kReferenceWalks, [&](std::uint64_t walk) {
         sums[walk].resize(seen.count());
         estimators::BundleIteration iteration(transport, math::RandomKey{kReference}.derived(walk));
         for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
-        for (int step = 0; step < kReferenceSteps; ++step) {
+        for (int step = 0; step < steps; ++step) {
             iteration.step();
             seen.add(iteration, sums[walk]);
         }
     });
     for (std::size_t walk = 1; walk < sums.size(); ++walk) estimators::add_to(sums[0], sums[walk]);
-    return seen.mean_cd_m2(sums[0], double{kReferenceWalks} * kReferenceSteps);
+    return seen.mean_cd_m2(sums[0], double{kReferenceWalks} * steps);
 }
 
 /// 1, 2, 3, 5, 7, 10 ... and the last.
@@ -89,7 +88,7 @@ std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing
     const Vec3& eye = tracing.view.position();
     const std::vector<double> pixels = pixels_of_sides(tracing, best);
     const std::vector<estimators::FloatRgb> reference =
-        reference_of(best, estimators::VisibleSides(best, eye));
+        reference_of(best, estimators::VisibleSides(best, eye), steps);
     std::vector<ConvergenceCurve> curves;
     for (const ConvergenceMethod& method : methods) {
         ConvergenceCurve curve{method.name, {}};
@@ -110,8 +109,8 @@ std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing
             estimators::add_to(sides, not_stored);
             curve.points.push_back({static_cast<double>(step), transport.first_shot.set_up_s() + elapsed_s,
                                     difference(sides, reference, pixels)});
-            if (elapsed_s > most_time_s) break;
             look(state);
+            if (!method.is_shown && elapsed_s > most_time_s) break;
             looking_s = clock.elapsed_s() - elapsed_s;
         }
         curves.push_back(std::move(curve));

@@ -27,7 +27,7 @@ struct ConvergenceCurve {
 struct ConvergenceMethod {
     std::string name;
     estimators::PatchOptions options;
-    bool is_shown = false;  ///< by pictures
+    bool is_shown = false;  ///< by pictures, which need all steps
 };
 
 /// What sides reflect towards the eye [cd/m2], as a mean over so many steps of a method.
@@ -39,8 +39,9 @@ struct ConvergenceState {
 };
 
 /// One walk for each method from darkness, no step left out, and the same number of steps for all but those
-/// that take longer than `most_time_s`. The reference is the mean of several walks by incoming first shot
-/// over the same patches. `look` sees what has a point on the curve; its time is not counted.
+/// that take longer than `most_time_s` and are not shown. The reference is the mean of several walks of as
+/// many steps by incoming first shot over the same patches. `look` sees what has a point on the curve; its
+/// time is not counted.
 std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing,
                                        const std::vector<ConvergenceMethod>& methods, int steps,
                                        double most_time_s,
