@@ -21,7 +21,7 @@ namespace {
 /// whose objects are compared with each other (overlaps.cpp).
 std::optional<Vec3> middle_of(const Light& light, const Scene& scene) {
     if (const auto* luminaire = lights::luminaire_of(light)) return luminaire->position;
-    if (const auto* point = std::get_if<PointLight>(&light.source)) return point->position;
+    if (const auto origin = lights::point_origin(light)) return origin->position;
     const auto surface = lights::uniform_emission(light);
     const auto* sphere = surface ? std::get_if<Sphere>(&scene.object(surface->object).shape) : nullptr;
     return sphere ? std::optional(sphere->center) : std::nullopt;

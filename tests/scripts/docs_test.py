@@ -17,6 +17,8 @@ PROGRAM = Path(os.environ.get("STILB", ROOT / "build/release/stilb"))
 MADE = {"build", "out"}  # not documents, and not to be found before they are made
 
 LINK = re.compile(r"\[[^\]]*\]\(([^)\s]+)\)")
+SOURCE = r"(?<![\w/.*-])((?:[\w-]+/)*[\w-]+\.(?:h|cpp|ts|mjs|css|cmake))\b"
+COMMENT = re.compile(r"//.*")
 NAMED_PATH = re.compile(r"`((?:src|tests|docs|scenes|scripts|fuzz|benchmarks)/[\w./*-]*)`")
 
 
@@ -75,6 +77,44 @@ class LinkTest(unittest.TestCase):
                     continue
                 with self.subTest(page=page.relative_to(ROOT), name=name):
                     self.assertTrue(any(ROOT.glob(name.rstrip("/"))))
+
+
+class SourcesTest(unittest.TestCase):
+    """Source files that documents and comments name."""
+
+    FOLDERS = ("src", "include", "tests", "benchmarks", "experiments", "fuzz", "examples", "python", "web", "cmake")
+    # Of other programs, or made by commands.
+    FOREIGN = {"base/bxdf.h", "base/camera.h", "base/film.h", "base/light.h", "base/material.h", "bxdfs.cpp", "bxdfs.h",
+               "cameras.cpp", "cameras.h", "cpu/integrators.cpp", "cpu/integrators.h", "emitter.h", "film.cpp", "film.h",
+               "wavefront/integrator.cpp"}
+
+    @classmethod
+    def setUpClass(cls):
+        cls.files = {file.relative_to(ROOT).as_posix() for folder in cls.FOLDERS for file in (ROOT / folder).rglob("*.*")}
+        # The ends of their paths, from "name.h" on.
+        cls.ends = {"/".join(parts[i:]) for parts in (file.split("/") for file in cls.files) for i in range(len(parts))}
+
+    def require_known(self, text, place):
+        for name in re.findall(SOURCE, text):
+            is_placeholder = Path(name).name.partition(".")[0].isupper() or "NAME" in name
+            if not is_placeholder and name not in self.FOREIGN:
+                with self.subTest(place=place, name=name):
+                    self.assertTrue(name in self.ends, "there is no such file")
+
+    def test_documents(self):
+        for page in pages():
+            if page.name != "CHANGELOG.md":  # tells of what was
+                for span in re.findall(r"`[^`\n]+`", prose(page)):
+                    self.require_known(span, page.relative_to(ROOT))
+
+    def test_comments(self):
+        comments = 0
+        for file in self.files:
+            if Path(file).suffix in (".h", ".cpp", ".ts", ".mjs") and not MADE & set(Path(file).parts):
+                for comment in COMMENT.findall((ROOT / file).read_text()):
+                    comments += 1
+                    self.require_known(comment, file)
+        self.assertGreater(comments, 5000, "the comments are found")
 
 
 @unittest.skipUnless(PROGRAM.exists(), f"{PROGRAM} is not built")

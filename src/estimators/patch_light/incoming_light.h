@@ -1,7 +1,7 @@
 // The incident light of sides of patches, independent of the view: its first terms in a basis over the
 // incident directions.
 //
-// L_in = sum over k of a_k Z_k for the projected hemisphere's orthonormal basis (base/zernike.h), so that
+// L_in = sum over k of a_k Z_k for the projected hemisphere's orthonormal basis (math/zernike.h), so that
 //
 //     a_k = integral of L_in Z_k cos(theta) dw = sum over what arrives of Z_k(w_in) E,
 //     L_out(w) = sum over k of a_k integral of f(w_in, w) Z_k(w_in) cos(theta) dw_in

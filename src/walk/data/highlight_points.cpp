@@ -59,15 +59,19 @@ std::vector<HighlightPoint> points_on(const AnyShape& shape) {
     return points;
 }
 
-std::vector<HighlightPoint> points_around(const Scene& scene, const EnvironmentLight& light) {
-    const scene::LightSurroundings surroundings(scene);
-    const EnvironmentLight::Emitter emitter(light, surroundings, scene::lift_of(scene));
-    const Bounds bounds = surroundings.bounds();
+/// Nothing where the light does not come from infinity.
+template <lights::LightKind Source>
+std::vector<HighlightPoint> points_around(const Scene& scene, const Source& light) {
     std::vector<HighlightPoint> points;
-    for (std::size_t i = 0; i < kAround; ++i) {
-        const Vec3 direction = lattice_direction(i, kAround);
-        points.push_back({bounds.middle() + 2 * kFar * bounds.half_extent() * direction, Vec3{},
-                          emitter.luminance_cd_m2(direction).luminance()});
+    if constexpr (Source::kLocation == LightLocation::infinity) {
+        const scene::LightSurroundings surroundings(scene);
+        const typename Source::Emitter emitter(light, surroundings, scene::lift_of(scene));
+        const Bounds bounds = surroundings.bounds();
+        for (std::size_t i = 0; i < kAround; ++i) {
+            const Vec3 direction = lattice_direction(i, kAround);
+            points.push_back({bounds.middle() + 2 * kFar * bounds.half_extent() * direction, Vec3{},
+                              emitter.luminance_cd_m2(direction).luminance()});
+        }
     }
     return points;
 }
@@ -79,8 +83,8 @@ std::vector<HighlightPoint> highlight_points(const Scene& scene, const Light& li
     std::vector<HighlightPoint> points;
     if (const auto surface = lights::emitting_object(light)) {
         points = std::visit([](const auto& shape) { return points_on(shape); }, scene.object(*surface).shape);
-    } else if (const auto* environment = std::get_if<EnvironmentLight>(&light.source)) {
-        points = points_around(scene, *environment);
+    } else {
+        points = std::visit([&](const auto& source) { return points_around(scene, source); }, light.source);
     }
     double sum = 0;
     for (const HighlightPoint& point : points) sum += point.weight;

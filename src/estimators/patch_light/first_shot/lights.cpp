@@ -125,6 +125,7 @@ class Chooser {
         } else if constexpr (std::is_same_v<Source, LuminousOpening>) {
             return shoot_from_opening(source);
         } else if constexpr (Source::kLocation == LightLocation::surface) {
+            static_assert(std::is_same_v<Source, AreaLight>, "a kind of uniform luminance");
             return shoot_from_surface(*uniform_emission(light));
         } else {
             static_assert(Source::kLocation == LightLocation::infinity);

@@ -1,5 +1,5 @@
-// Direct simulation: particles.h describes the light of the patches, patch_readings.h and patch_picture.h
-// readings and pictures of it. A sample is a particle. Each batch of readings makes a map of its own; a pass
+// Direct simulation: particles.h describes the light of the patches, patch_readings.h readings and
+// pictures of it. A sample is a particle. Each batch of readings makes a map of its own; a pass
 // over a picture is the map of some particles.
 #include "estimators/patch_light/particles/particles.h"
 

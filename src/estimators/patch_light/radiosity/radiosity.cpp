@@ -1,5 +1,4 @@
-// Radiosity: radiosity.h describes the light of the patches, patch_readings.h and patch_picture.h readings
-// and pictures of it.
+// Radiosity: radiosity.h describes the light of the patches, patch_readings.h readings and pictures of it.
 //
 // The light of the patches is deterministic. Its error is the discretisation: light that varies over a patch,
 // and form factors from its middle. Samples are rays from the points to the patches: the standard errors of

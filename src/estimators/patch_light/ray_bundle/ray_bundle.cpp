@@ -1,5 +1,5 @@
 // Stochastic iteration with ray bundles and first shot: bundle_iteration.h describes the iteration,
-// patch_readings.h and patch_picture.h readings and pictures. For readings each batch is a walk of its own,
+// patch_readings.h readings and pictures. For readings each batch is a walk of its own,
 // without its first steps; a pass over a picture is the mean over the steps of some walks.
 
 #include <algorithm>
