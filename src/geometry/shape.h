@@ -74,9 +74,9 @@ struct Disk {
 
 /// The method of ray intersection with a surface by harmonics.
 enum class HarmonicMethod {
-    cells,  ///< polynomials in small cells: harmonic_cells.h
+    cells,  ///< polynomials in small cells: harmonics/cells.h
     roots,  ///< the roots of a trigonometric polynomial: HarmonicSurface::first_crossing
-    march   ///< fixed steps and bisection, which miss thin parts: harmonic_march.h
+    march   ///< fixed steps and bisection, which miss thin parts: harmonics/surface.h
 };
 
 /// center + scale (x u + y v + z w) of the surface's points (x, y, z); u, v and w, the axes, are orthonormal,

@@ -42,7 +42,7 @@ inline constexpr std::uint32_t kNoSide = ~0u;
 struct Patches {
     Vec3 center;  ///< the origin of `vertices`: the middle of the bounding box
     std::vector<Float3>
-        vertices;  ///< [m], divided at creases (smooth_vertices.h), so positions occur repeatedly
+        vertices;  ///< [m], divided at creases (vertex_interpolation.h), so positions occur repeatedly
     std::vector<Triangle> corners;                  ///< per patch, of `vertices`
     std::vector<Float3> normals;                    ///< per patch: geometric, unit, on the front
     std::vector<float> areas_m2;                    ///< per patch, one side

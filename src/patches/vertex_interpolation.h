@@ -1,7 +1,7 @@
 // Interpolation of patch values to a value that varies continuously over smooth surfaces.
 //
 // A vertex gets a mean of the patches around it, and a point the barycentric mean of its patch's vertices.
-// Vertices are divided at creases (smooth_vertices.h), so nothing leaks across edges, between materials or
+// Vertices are divided at creases, so nothing leaks across edges, between materials or
 // between objects. The weights are those of the plane fitted to the values by least squares in the tangent
 // plane: values that are linear over a plane are reproduced. Where the fit would extrapolate, with negative
 // weights, mostly at the rims of surfaces, all weights are equal. So no value ever lies outside of the range

@@ -1,5 +1,5 @@
 // Ray queries: closest hit, occlusion, and packets of both. Only this implementation, and that of
-// patches/patch_caster.h, includes Embree.
+// patches/visibility/patch_caster.h, includes Embree.
 //
 // Offsets. Embree works in single precision on coordinates relative to the scene's centre. Rays start from,
 // and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =

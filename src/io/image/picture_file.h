@@ -17,7 +17,7 @@ namespace stilb::io {
 void require_luminance_picture_path(const std::filesystem::path& path,
                                     std::span<const std::filesystem::path> inputs);
 
-/// Writes .exr (exr_file.h), .hdr (hdr_file.h) or .png (png_picture.h). The file is replaced in one step, so
+/// Writes .exr, .hdr or .png. The file is replaced in one step, so
 /// that a viewer never reads half of it. Returns the tone curve of a .png, whose exposure and white may have
 /// been chosen automatically; the other formats keep the picture's values. Throws InputError as above and
 /// where the file cannot be written.

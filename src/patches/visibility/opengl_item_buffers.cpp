@@ -2,7 +2,7 @@
 // with nearer being larger: a relative precision of 2^-24 at every distance, whatever the near plane is
 // [Upchurch, Desbrun 2012, Tightening the precision of perspective rendering]. So the near plane can lie
 // closer than any viewpoint is to a surface: a viewpoint on a surface is lifted by 2^-19 of the scene's size
-// (viewpoint.h), the near plane is at 2^-23.
+// (item_buffer.h), the near plane is at 2^-23.
 //
 // Agreement with rays. Both see a pixel's middle from the same viewpoint, with the same rounding of viewpoint
 // and vertices. OpenGL rounds vertices once more on the screen, usually to 1/256 of a pixel: the middle of a

@@ -1,5 +1,5 @@
 // Points of the guess's surfaces, chosen for a group of receivers: connections to them bring most of the
-// guessed light (theory T.8b). A side is chosen by its luminance, its area and the kernel at its middle.
+// guessed light (theory T.8). A side is chosen by its luminance, its area and the kernel at its middle.
 #pragma once
 
 #include <array>

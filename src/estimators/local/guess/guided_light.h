@@ -1,4 +1,4 @@
-// Indirect light by a guess as control variate (theory T.8b):
+// Indirect light by a guess as control variate (theory T.8):
 //
 //     light of the guess: closed forms (certain_light.h), connections to points of it (guess_points.h), and
 //     gathering rays (guess_gather.h)
