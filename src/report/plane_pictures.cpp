@@ -15,7 +15,7 @@ namespace {
 
 constexpr double kMostWidth = 600, kMostHeight = 470;
 /// Cells of that size have readable numbers; small planes are no larger.
-constexpr double kCellWidth = 34, kCellHeight = 26, kLeastSide = 120;
+constexpr double kCellWidth = 40, kCellHeight = 34, kLeastSide = 150;
 
 /// The largest usual scale at which the plane fits on a page and its cells are not larger than numbers need.
 double ratio_of(const plot::FalseColourPanel& panel) {

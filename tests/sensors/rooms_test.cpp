@@ -212,7 +212,9 @@ TEST(Rooms, MeasureTheWallBelowAWindow) {
             EXPECT_FALSE(is_in_window);
             below += p.z < 0.9;
         }
-        if (normal.y > 0.5) EXPECT_NEAR(p.y, 0, 1e-6);
+        if (normal.y > 0.5) {
+            EXPECT_NEAR(p.y, 0, 1e-6);
+        }
     }
     EXPECT_GE(below, 8u);
 }
