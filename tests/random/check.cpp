@@ -8,12 +8,14 @@ namespace {
 
 constexpr std::uint64_t kMoreWork = 16;
 
+/// With so many times the samples, no rare light explains a value below this share of the other.
+constexpr double kLeastExplained = 0.5;
 /// Seconds of processor time for the reduction of a scene.
 constexpr double kReductionSeconds = 15;
 
 bool contains(const std::string& text, const char* words) { return text.find(words) != std::string::npos; }
 
-/// Whether a warning says that values of this sensor may be wrong by more than their errors: rare light.
+/// Whether a warning says that values of this sensor may be too low by more than their errors: rare light.
 bool explains(const std::string& warning, const std::string& sensor) {
     return contains(warning, "sharply, and few samples find such light") ||
            (contains(warning, "a few rare light paths make up much of the light") &&
@@ -46,7 +48,8 @@ class Comparison {
     struct Outcome {
         Difference difference;
         Measured measured;
-        std::vector<std::string> warnings;
+        std::vector<std::string> warnings;           ///< of both
+        std::vector<std::string> warnings_of_lower;  ///< of the measurement that gave the lower value
     };
     Outcome of(const Draft& draft, const Measured* reference, std::uint64_t work, std::uint64_t seed) const {
         Setting setting = setting_;
@@ -57,6 +60,7 @@ class Comparison {
         outcome.warnings = outcome.measured.warnings;
         if (exact_) {
             outcome.difference = worst_difference(outcome.measured, exact_->exact);
+            outcome.warnings_of_lower = outcome.warnings;
             if (!exact_->may_be_twice) return outcome;
             ExactValues twice = exact_->exact;
             for (double& value : twice) value *= 2;
@@ -70,6 +74,9 @@ class Comparison {
             reference = &own;
         }
         outcome.difference = worst_difference(outcome.measured, *reference);
+        outcome.warnings_of_lower = outcome.difference.value < outcome.difference.other
+                                        ? outcome.measured.warnings
+                                        : reference->warnings;
         std::ranges::copy(reference->warnings, std::back_inserter(outcome.warnings));
         return outcome;
     }
@@ -152,14 +159,16 @@ Checked check(const RandomScene& random, std::uint64_t scene, const Options& opt
     Draw draw(options.seed, ~scene);
     const std::uint64_t seed = 1000 + 100 * scene;
     std::string reference_method = "path";
-    Measured reference = measure(random.draft, {reference_method, Form::as_it_is, seed, 1}, options.folder);
+    Measured reference =
+        measure(random.draft, {reference_method, Form::as_it_is, seed, options.work}, options.folder);
     if (!reference.refusal.empty()) {
         checked.refusal = reference.refusal;
         return checked;
     }
     if (is_incomplete(reference)) {
         reference_method = "light-paths";
-        reference = measure(random.draft, {reference_method, Form::as_it_is, seed, 1}, options.folder);
+        reference =
+            measure(random.draft, {reference_method, Form::as_it_is, seed, options.work}, options.folder);
     }
     std::vector<Comparison> comparisons;
     for (const Setting& setting : settings_of(random, options, draw))
@@ -170,13 +179,14 @@ Checked check(const RandomScene& random, std::uint64_t scene, const Options& opt
     }
     std::uint64_t next_seed = seed + 1;
     for (const Comparison& comparison : comparisons) {
-        const Comparison::Outcome first = comparison.of(random.draft, &reference, 1, next_seed);
+        const Comparison::Outcome first = comparison.of(random.draft, &reference, options.work, next_seed);
         next_seed += 2;
         if (!first.measured.refusal.empty()) continue;
         if (comparison.setting().method != "light-paths" && is_incomplete(first.measured)) continue;
         checked.comparisons += first.measured.readings.size();
         if (!first.difference.is_real()) continue;
-        const Comparison::Outcome again = comparison.of(random.draft, nullptr, kMoreWork, next_seed + 50);
+        const Comparison::Outcome again =
+            comparison.of(random.draft, nullptr, kMoreWork * options.work, next_seed + 50);
         if (!again.difference.is_real()) continue;
         Finding finding;
         finding.scene = scene;
@@ -195,11 +205,11 @@ Checked check(const RandomScene& random, std::uint64_t scene, const Options& opt
             finding.warnings, [&](const std::string& warning) { return explains(warning, sensor); });
         if (has_heavy_tails(finding.setting) && finding.difference.value < finding.difference.other)
             finding.is_explained = true;
-        // Nothing explains an exact 0.
-        if (std::min(finding.difference.value, finding.difference.other) <= 0) finding.is_explained = false;
+        const auto [lower, higher] = std::minmax(finding.difference.value, finding.difference.other);
+        if (lower < kLeastExplained * higher) finding.is_explained = false;
         const bool is_explained = finding.is_explained;
         if (!is_explained)
-            finding.draft = finding.is_exact ? random.draft : reduced(random.draft, comparison, 1);
+            finding.draft = finding.is_exact ? random.draft : reduced(random.draft, comparison, options.work);
         checked.findings.push_back(std::move(finding));
         if (!is_explained) break;  // its other differences mostly have the same cause
     }

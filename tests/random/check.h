@@ -15,9 +15,10 @@ namespace stilb::random {
 struct Options {
     std::filesystem::path folder;
     std::uint64_t seed = 1;
-    std::size_t forms = 2;  ///< other forms of each scene
-    bool is_long = false;   ///< also methods that light patches
-    std::string only;       ///< only methods and forms whose words contain this
+    std::size_t forms = 2;   ///< other forms of each scene
+    std::uint64_t work = 1;  ///< a factor on all samples
+    bool is_long = false;    ///< also methods that light patches
+    std::string only;        ///< only methods and forms whose words contain this
 };
 
 struct Finding {

@@ -1,6 +1,6 @@
 // Random scenes, each measured in many ways that must agree: docs/verification.md.
 //
-//     verify_random [SCENES] [--seed N] [--first K] [--forms N] [--jobs N] [--long]
+//     verify_random [SCENES] [--seed N] [--first K] [--forms N] [--work N] [--jobs N] [--long]
 //     verify_random --scene K [--seed N] [--only WORDS] [--print]
 //     verify_random --thresholds
 //
@@ -166,6 +166,8 @@ Request parse(int argc, char** argv) {
             request.first = next();
         } else if (argument == "--forms") {
             request.options.forms = next();
+        } else if (argument == "--work") {
+            request.options.work = std::max(1ull, next());
         } else if (argument == "--jobs") {
             request.jobs = std::max<std::size_t>(1, next());
         } else if (argument == "--long") {
