@@ -1,5 +1,6 @@
 // Lamps of random scenes: from one to 200, of one kind or of all.
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <fstream>
 
@@ -150,7 +151,10 @@ void write_photometry(const std::filesystem::path& path, std::string_view name, 
         text += "\n";
         for (int g = 0; g < kGammas; ++g) text += fmt::format("{:.6f} ", intensity_cd(g, c * step));
     }
-    std::ofstream(path) << text << "\n";
+    // Another run may read the file now.
+    const std::filesystem::path unfinished = fmt::format("{}.{}", path.string(), getpid());
+    std::ofstream(unfinished) << text << "\n";
+    std::filesystem::rename(unfinished, path);
 }
 
 }  // namespace
