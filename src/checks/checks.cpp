@@ -26,6 +26,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaste
     add(facing_warnings(scene, caster, sensors, explained));
     add(reach_warnings(scene, caster, sensors, explained));
     add(unlit_warnings(scene, caster));
+    add(absorption_warnings(scene, caster));
     return warnings;
 }
 

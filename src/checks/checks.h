@@ -163,6 +163,14 @@ std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& c
 /// One sentence for all of them.
 std::vector<std::string> unlit_warnings(const Scene& scene, const rays::RayCaster& caster);
 
+// Light that finds no end.
+
+/// A sentence where nothing absorbs the light of the lamps, as far as random walks find: a closed room with
+/// reflectances of 1. Without a limit on reflections there is no result.
+std::optional<std::string> endless_light(const Scene& scene, const rays::RayCaster& caster);
+/// This sentence, or one where the surfaces around the lamps absorb nearly nothing.
+std::vector<std::string> absorption_warnings(const Scene& scene, const rays::RayCaster& caster);
+
 // Units.
 
 /// A sentence where the meshes are so large on all sides that their file is probably not in metres.

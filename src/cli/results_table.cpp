@@ -57,7 +57,7 @@ std::string grid_values(const SensorResult& result, const std::array<int, 2>& co
         text += "   ";
         for (std::size_t u = 0; u < columns; ++u) {
             const double value = result.readings[v * columns + u].estimate.value;
-            text += fmt::format(" {:{}.{}f}", value, width, decimals);
+            text += fmt::format(" {:>{}}", io::fixed(value, decimals), width);
         }
         text += '\n';
     }

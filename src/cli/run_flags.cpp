@@ -64,7 +64,7 @@ void RunFlags::add_those_of_all(Command& command) {
     command
         .add("--error", error,
              "Stop when 95 % of the readings of each sensor have a 95 % interval within this share of their "
-             "value: 1% or 0.01")
+             "value (dark ones of a hundredth of the mean): 1% or 0.01")
         .value_name("SHARE");
     command
         .add(

@@ -20,6 +20,7 @@
 #include "estimators/local/split_plan.h"
 #include "materials/split_material.h"
 #include "math/morton.h"
+#include "statistics/interval.h"
 
 namespace stilb::estimators {
 namespace {
@@ -91,15 +92,31 @@ Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose pur
     return pilot;
 }
 
+/// The dark levels of the sensors (statistics::dark_level), by readings, which have about these values.
+std::vector<double> dark_levels(std::span<const double> values, const Problem& problem) {
+    const auto sensor_of = [&](std::size_t j) { return problem.sensors.empty() ? 0 : problem.sensors[j]; };
+    std::vector<std::vector<double>> of_sensors;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        of_sensors.resize(std::max<std::size_t>(of_sensors.size(), sensor_of(j) + 1));
+        of_sensors[sensor_of(j)].push_back(values[j]);
+    }
+    std::vector<double> levels, of_readings;
+    for (const std::vector<double>& of_sensor : of_sensors)
+        levels.push_back(statistics::dark_level(of_sensor));
+    for (std::size_t j = 0; j < values.size(); ++j) of_readings.push_back(levels[sensor_of(j)]);
+    return of_readings;
+}
+
 /// The work to the problem's error on average over the readings, which have about these values. Not to a mean
 /// of squares: few readings in corners would outweigh all others.
 double sampling_cost(const Pilot& pilot, std::span<const double> values, const Problem& problem) {
     const std::span<const double> weights = problem.weights;
+    const std::vector<double> dark = dark_levels(values, problem);
     double sum = 0, all = 0;
     for (std::size_t j = 0; j < values.size(); ++j) {
-        const double weight = weights.empty() ? 1 : weights[j];
+        const double weight = weights.empty() ? 1 : weights[j], value = std::max(values[j], dark[j]);
         all += weight;
-        if (values[j] > 0) sum += weight * pilot.deviations[j] / values[j];
+        if (value > 0) sum += weight * pilot.deviations[j] / value;
     }
     const double error_of_part = sum / all;
     const double wanted = problem.error / 2;  // half of an interval is about two standard errors
@@ -120,9 +137,14 @@ std::vector<double> values_of(const Pilot& a, const Pilot& b) {
     return values;
 }
 
-/// Where path tracing has found nothing, its variance says nothing.
-bool finds_light(const Pilot& pilot) {
-    return std::ranges::all_of(pilot.means, [](double mean) { return mean > 0; });
+/// Where path tracing has found nothing, its variance says nothing. Readings have about these values: those
+/// of dark ones do not matter.
+bool finds_light(const Pilot& pilot, std::span<const double> values, const Problem& problem) {
+    const std::vector<double> dark = dark_levels(values, problem);
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        if (!(pilot.means[j] > 0) && !(values[j] < dark[j])) return false;
+    }
+    return true;
 }
 
 std::unique_ptr<Estimator> make_for_few(Problem problem) {
@@ -135,7 +157,7 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
                                 kPath);
     };
     const auto is_path_cheaper = [&](const Pilot& of_path, double work) {
-        return finds_light(of_path) &&
+        return finds_light(of_path, of_path.means, problem) &&
                sampling_cost(of_path, of_path.means, problem) < work + kLeastOfLightPaths;
     };
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
@@ -145,9 +167,9 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
     const Pilot of_path = path_pilot(kPathPilotCost, kLeastPaths);
     if (is_path_cheaper(of_path, worth_planning)) return path;
     std::unique_ptr<Estimator> balanced = make_balanced(problem);
-    if (!finds_light(of_path)) return balanced;
     const Pilot of_balanced = run_pilot_of_few(*balanced, balanced->batch_granularity(), kBalanced);
     const std::vector<double> values = values_of(of_path, of_balanced);
+    if (!finds_light(of_path, values, problem)) return balanced;
     const bool path_pays =
         sampling_cost(of_path, values, problem) < sampling_cost(of_balanced, values, problem);
     return path_pays ? std::move(path) : std::move(balanced);
@@ -163,6 +185,7 @@ struct Survey {
             for (const std::uint32_t i : std::span(order).subspan(first, kRun)) {
                 measurands.push_back(whole.measurands[i]);
                 if (!whole.weights.empty()) weights.push_back(whole.weights[i]);
+                if (!whole.sensors.empty()) sensors.push_back(whole.sensors[i]);
             }
         }
         stands_for = static_cast<double>(all) / static_cast<double>(measurands.size());
@@ -172,12 +195,14 @@ struct Survey {
         whole.preparation_key = kPilotKey;
         whole.measurands = measurands;
         whole.weights = weights;
+        whole.sensors = sensors;
         whole.stands_for = stands_for;
         return whole;
     }
 
     std::vector<Measurand> measurands;
     std::vector<double> weights;
+    std::vector<std::uint32_t> sensors;
     double stands_for = 1;
 
   private:
@@ -252,9 +277,11 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
 
 /// The work to a mean squared error of all pixels, times that error: single bright dots disturb a picture.
 double picture_cost(const Pilot& pilot, std::span<const double> values) {
+    const double dark = statistics::dark_level(values);
     double squares = 0;
     for (std::size_t j = 0; j < values.size(); ++j) {
-        const double error = values[j] > 0 ? pilot.deviations[j] / values[j] : 0;
+        const double value = std::max(values[j], dark);
+        const double error = value > 0 ? pilot.deviations[j] / value : 0;
         squares += error * error;
     }
     return pilot.cost * squares / static_cast<double>(values.size());

@@ -33,6 +33,8 @@ struct Problem {
     std::span<const Measurand> measurands = {};
     /// The weight of each measurand's relative variance. Empty: all equal.
     std::span<const double> weights = {};
+    /// The number of the sensor of each measurand, for errors relative to their means. Empty: all are one's.
+    std::span<const std::uint32_t> sensors = {};
     /// Each measurand is one of so many: plans and costs are those of all of them.
     double stands_for = 1;
     /// The relative half-width of the intervals that are wanted, for choices by work: 1 % where a run asks

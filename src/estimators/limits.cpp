@@ -7,6 +7,7 @@
 
 #include "stilb/error.h"
 #include "transport/receiver.h"
+#include "transport/weights.h"
 
 namespace stilb::estimators {
 namespace {
@@ -98,6 +99,18 @@ void require_all_reflections(int max_reflections, std::string_view method) {
         fmt::format("method {} does not support a limit on reflections (bounces): it computes all of them "
                     "together.",
                     method));
+}
+
+std::uint64_t paths_at_once(const Scene& scene, std::uint64_t wanted) {
+    constexpr double most_vertices = 1 << 21;  // some 300 MB
+    double survival = 0;
+    for (const auto& named : scene.materials) {
+        if (!is_specular(named.material))
+            survival = std::max(
+                survival, transport::survival_probability(Rgb::grey(1), reflectance_bound(named.material)));
+    }
+    const double most = std::max(1., most_vertices * (1 - survival));
+    return static_cast<double>(wanted) > most ? static_cast<std::uint64_t>(most) : wanted;
 }
 
 std::vector<std::string> local_warnings(const Scene& scene) {

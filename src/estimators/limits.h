@@ -1,6 +1,7 @@
 // Limitations of estimators, reported to the user as warnings or errors.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -14,8 +15,12 @@ bool has_specular_surfaces(const Scene& scene);
 /// a mirror or glass before anything else.
 bool has_light_for_light_paths_only(const Scene& scene);
 
-/// Warnings of light that path tracing, solutions and local estimation leave out, where the scene has mirrors or glass
-/// and point or photometry lights; empty elsewhere.
+/// The number of light paths whose vertices are in memory at a time, `wanted` at most: fewer where surfaces
+/// are so white that the paths have thousands of vertices.
+std::uint64_t paths_at_once(const Scene& scene, std::uint64_t wanted);
+
+/// Warnings of light that path tracing, solutions and local estimation leave out, where the scene has mirrors
+/// or glass and point or photometry lights; empty elsewhere.
 std::vector<std::string> path_warnings(const Scene& scene);
 std::vector<std::string> solution_warnings(const Scene& scene);
 std::vector<std::string> local_warnings(const Scene& scene);

@@ -30,11 +30,23 @@ double area_of(const std::array<Vec3, 3>& corners) {
     return length(cross(corners[1] - corners[0], corners[2] - corners[0])) / 2;
 }
 
+double longest_edge_of(const std::array<Vec3, 3>& corners) {
+    return std::max(
+        {length(corners[1] - corners[0]), length(corners[2] - corners[1]), length(corners[0] - corners[2])});
+}
+
 /// The parts of triangles, with common vertices where they touch.
 class PartsMesh {
   public:
     /// Positions that differ by less than about `tolerance_m` are one.
     explicit PartsMesh(double tolerance_m) : tolerance_m_(tolerance_m) {}
+
+    /// The most parts along the edges of a triangle of this height, its least, that all have an area. A
+    /// vertex may move by the diagonal of a cell, sqrt(3) x tolerance, and so may the edge opposite to it.
+    double most_parts(double height_m) const {
+        constexpr double least_height = 4;  // tolerances; more than 2 sqrt(3)
+        return std::max(1.0, std::floor(height_m / (least_height * tolerance_m_)));
+    }
 
     /// Row by row along the edge from corner 0 to 1; each upright part is followed by the one beside it that
     /// is upside down.
@@ -125,7 +137,8 @@ void RegularPatches::add(const Object& object, ObjectId id, double patch_area_m2
                          const HasPatches& has_patches) {
     const std::optional<rays::TracedMesh> mesh = caster_.traced_mesh(id);
     first_division_.push_back(mesh ? static_cast<std::uint32_t>(divisions_.size()) : kNoSide);
-    PartsMesh parts(4 * caster_.offset_m(caster_.center(), caster_.half_extent_m()));
+    const Bounds bounds = geometry::bounds_of(object.shape);
+    PartsMesh parts(caster_.offset_m(bounds.middle(), length(bounds.max - bounds.min)) / 4);
     const std::size_t before = divisions_.size();
     for (std::uint32_t i = 0; mesh && i < mesh->triangles.size(); ++i) {
         const std::array<Vec3, 3> corners = corners_of(*mesh, i);
@@ -134,8 +147,10 @@ void RegularPatches::add(const Object& object, ObjectId id, double patch_area_m2
         Division& division = divisions_.emplace_back();
         const MaterialId material = object.materials[object.materials.size() == 1 ? 0 : parent];
         if (!(static_cast<float>(area_m2) > 0) || !has_patches(id, material)) continue;
+        const double most =
+            std::min(double{kMostParts}, parts.most_parts(2 * area_m2 / longest_edge_of(corners)));
         const double along = std::round(std::sqrt(area_m2 / patch_area_m2));
-        division = {parts.count(), static_cast<std::uint32_t>(std::clamp(along, 1.0, double{kMostParts}))};
+        division = {parts.count(), static_cast<std::uint32_t>(std::clamp(along, 1.0, most))};
         parts.add(corners, division.parts, parent);
     }
     const auto first = static_cast<std::uint32_t>(patches_.count());

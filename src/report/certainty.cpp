@@ -20,8 +20,9 @@ Count count_readings(const RunResult& result, double error) {
     for (const SensorResult& sensor : result.sensors) {
         if (sensor.sensor.derived() || sensor.sensor.rates_glare()) continue;
         count.all += sensor.readings.size();
+        const double dark = statistics::dark_level(std::span(&sensor.summary.mean, 1));
         count.reached += std::ranges::count_if(sensor.readings, [&](const Reading& reading) {
-            return statistics::relative_half_width(reading.estimate) <= error;
+            return statistics::relative_half_width(reading.estimate, dark) <= error;
         });
     }
     return count;
@@ -52,7 +53,8 @@ std::string reached_text(const RunResult& result, const RunOptions& options) {
     const auto [reached, all] = count_readings(result, wanted);
     return fmt::format(
         "An error of {:g} % was requested for 95 % of the readings of each sensor: half of the interval's "
-        "width, relative to the value. {} of {} readings reach it; 95 % are within {}.",
+        "width, relative to the value, or to 1 % of the sensor's mean where the value is less. {} of {} "
+        "readings reach it; 95 % are within {}.",
         100 * wanted, reached, all, attained);
 }
 

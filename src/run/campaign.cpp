@@ -23,6 +23,9 @@ constexpr std::size_t kFewReplicates = 8, kLargeGrid = 64;
 /// Samples of a replicate from which its packets' paces follow.
 constexpr std::uint64_t kSamplesBeforePaces = 16;
 constexpr double kReadingReserve = 2;  ///< paces.h
+/// Light that the set-up has met is not expected any more at readings where so many samples find none: the
+/// set-up has at most 1024 rays.
+constexpr std::uint64_t kSamplesToRuleOut = 1 << 16;
 /// Tasks that can run at the same time: strands of all replicates.
 constexpr std::size_t kStrands = 32;
 /// Readings times strands: with more of them, sums take gigabytes and much of the time.
@@ -222,9 +225,11 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
     all.largest = largest(first, count);
     for (std::size_t j = 0; j < count; ++j) {
         statistics::LargestContributions known = all.largest[j];
-        if (!expected_largest_.empty()) known.overall = std::max(known.overall, expected_largest_[first + j]);
         std::uint64_t samples = 0;
         for (const Replicate& replicate : replicates_) samples += replicate.taken(packets_[first + j]);
+        const bool is_ruled_out = known.overall == 0 && samples >= kSamplesToRuleOut;
+        if (!expected_largest_.empty() && !is_ruled_out)
+            known.overall = std::max(known.overall, expected_largest_[first + j]);
         all.samples.push_back(samples);
         all.rare_light.push_back(statistics::rare_light(known, samples));
     }

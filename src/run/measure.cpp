@@ -219,14 +219,17 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
 /// enough.
 struct Wanted {
     explicit Wanted(std::span<const Sensor> sensors) {
-        for (const Sensor& sensor : sensors) {
+        for (std::uint32_t s = 0; s < sensors.size(); ++s) {
+            const Sensor& sensor = sensors[s];
             std::ranges::copy(sensor.measurands(), std::back_inserter(measurands));
             weights.insert(weights.end(), sensor.size(), 1 / static_cast<double>(sensor.size()));
+            sensor_of.insert(sensor_of.end(), sensor.size(), s);
         }
     }
 
     std::vector<Measurand> measurands;
     std::vector<double> weights;
+    std::vector<std::uint32_t> sensor_of;  ///< by measurand
 };
 
 /// Warns where the run has too few samples for the highlights of small lamps.
@@ -264,6 +267,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
+    problem.sensors = wanted.sensor_of;
     problem.error = options.error.value_or(problem.error);
     std::unique_ptr<estimators::Estimator> estimator;
     session.on_threads([&] { estimator = method.make(problem); });

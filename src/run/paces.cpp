@@ -10,8 +10,10 @@ namespace {
 /// One of so many samples at least.
 constexpr double kMostEvery = 16;
 
-/// The squares of the relative standard deviations of all replicates but one; 0 where there is no light.
-std::vector<double> relative_variances(std::size_t left_out, const statistics::ReplicateTable& table) {
+/// The squares of the relative standard deviations of all replicates but one, as the error that ends a run
+/// is relative (statistics::attained_error()); 0 where there is no light. `readings`: of each sensor.
+std::vector<double> relative_variances(std::size_t left_out, const statistics::ReplicateTable& table,
+                                       std::span<const std::size_t> readings) {
     // The sums are over differences from one of the replicates: equal values have the variance 0, without
     // rounding errors.
     const std::span<const double> first = table.row(left_out == 0 ? 1 : 0);
@@ -25,10 +27,17 @@ std::vector<double> relative_variances(std::size_t left_out, const statistics::R
         }
     }
     const auto others = static_cast<double>(table.replicates() - 1);
-    std::vector<double> variances(table.readings);
-    for (std::size_t j = 0; j < table.readings; ++j) {
-        const double shift = sums[j] / others, mean = first[j] + shift;
-        if (mean > 0) variances[j] = std::max(0.0, squares[j] / others - shift * shift) / (mean * mean);
+    std::vector<double> means(table.readings), variances(table.readings);
+    for (std::size_t j = 0; j < table.readings; ++j) means[j] = first[j] + sums[j] / others;
+    std::size_t begin = 0;
+    for (const std::size_t count : readings) {
+        const double dark = statistics::dark_level(std::span(means).subspan(begin, count));
+        for (std::size_t j = begin; j < begin + count; ++j) {
+            const double shift = sums[j] / others, value = std::max(means[j], dark);
+            if (value > 0)
+                variances[j] = std::max(0.0, squares[j] / others - shift * shift) / (value * value);
+        }
+        begin += count;
     }
     return variances;
 }
@@ -62,7 +71,8 @@ std::vector<estimators::Pace> paces_of(std::size_t replicate, const statistics::
                                        std::span<const std::uint32_t> packets,
                                        std::span<const std::size_t> readings, std::uint64_t samples,
                                        double reserve) {
-    const std::vector<double> variances = means_of_packets(relative_variances(replicate, table), packets);
+    const std::vector<double> variances =
+        means_of_packets(relative_variances(replicate, table, readings), packets);
     const double deciding = deciding_variance(variances, packets, readings);
     std::vector<estimators::Pace> paces;
     for (const double variance : variances) {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "checks/checks.h"
+#include "stilb/error.h"
 #include "transport/receiver.h"
 
 namespace stilb::run {
@@ -132,6 +133,9 @@ Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& 
 
 std::vector<std::string> Session::scene_warnings(std::span<const Sensor> sensors) const {
     monitor_.report("checks", 0);
+    if (!options_.bounces) {
+        if (const auto endless = checks::endless_light(scene_, caster_)) throw InputError(*endless);
+    }
     return checks::scene_warnings(scene_, caster_, checks::Enclosures(scene_, caster_), sensors);
 }
 

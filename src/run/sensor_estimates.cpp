@@ -96,7 +96,9 @@ double attained_error_of_means(std::span<const Sensor> sensors, std::span<const 
     for (std::size_t s = 0; s < sensors.size(); ++s) {
         if (sensors[s].size() == 0) continue;
         const GridSummary& summary = estimates[s].summary;
-        worst = std::max({worst, relative_half_width(summary.mean), relative_half_width(summary.minimum)});
+        const double least = statistics::dark_level(std::span(&summary.mean, 1));
+        worst =
+            std::max({worst, relative_half_width(summary.mean), relative_half_width(summary.minimum, least)});
     }
     return worst;
 }

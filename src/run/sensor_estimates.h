@@ -30,7 +30,8 @@ statistics::GridSummary summary_of(const Campaign::Estimates& estimates, double 
 std::vector<SensorEstimates> estimate_all(const Campaign& campaign, std::span<const Sensor> sensors,
                                           double confidence);
 
-/// The largest relative half-width of the means and minima of sensors with readings.
+/// The largest relative half-width of the means and minima of sensors with readings; dark minima as dark
+/// readings (statistics::dark_level).
 double attained_error_of_means(std::span<const Sensor> sensors, std::span<const SensorEstimates> estimates);
 
 /// A requirement is met, or is not, where the whole interval says so.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -37,8 +38,9 @@ double offset_m(const Scene& scene) {
     return lift.offset_m(lift.center(), lift.half_extent_m());
 }
 
-/// The triangles of flat shapes; of a disk those of a polygon. Curved shapes have none.
-Mesh mesh_of(const Shape& shape) {
+}  // namespace
+
+Mesh flat_mesh(const Shape& shape) {
     if (const auto* instance = std::get_if<Instance>(&shape)) return triangulated(*instance);
     if (const auto* rectangle = std::get_if<Rectangle>(&shape)) return triangulated(*rectangle);
     if (const auto* box = std::get_if<Box>(&shape)) return triangulated(*box);
@@ -55,6 +57,8 @@ Mesh mesh_of(const Shape& shape) {
     }
     return mesh;
 }
+
+namespace {
 
 struct Point2 {
     double u = 0, v = 0;
@@ -162,6 +166,17 @@ class OverlapSearch {
         for (std::uint32_t i = 0; i < scene.objects.size(); ++i) add(scene, i, is_lamp[i]);
     }
 
+    /// All triangles of a mesh.
+    OverlapSearch(const Mesh& mesh, double largest_gap_m)
+        : of_(OverlapsOf::all_surfaces),
+          most_(std::numeric_limits<std::size_t>::max()),
+          largest_gap_m_(largest_gap_m),
+          margin_{largest_gap_m / 2, largest_gap_m / 2, largest_gap_m / 2},
+          shapes_(1) {
+        shapes_[0].mesh = &mesh;
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) pieces_.push_back({ObjectId{0}, t, t});
+    }
+
     std::vector<Overlap> run() {
         std::vector<std::uint32_t> all(pieces_.size());
         std::iota(all.begin(), all.end(), 0u);
@@ -198,7 +213,7 @@ class OverlapSearch {
         if (!meet(geometry::bounds_of(object.shape), wanted_)) return;
         const auto* mesh = std::get_if<Mesh>(&object.shape);
         Shapes& shape = shapes_[index];
-        if (mesh == nullptr) shape.own = mesh_of(object.shape);
+        if (mesh == nullptr) shape.own = flat_mesh(object.shape);
         shape.mesh = mesh ? mesh : &shape.own;
         const auto look_at = [&](MaterialId material) {
             // Of two bodies of glass each face counts, even if they have one material.
@@ -330,8 +345,8 @@ class OverlapSearch {
     void add_overlap(const Piece& first, const Piece& second) {
         const auto place = shared_place(corners_of(first), corners_of(second), largest_gap_m_);
         if (!place) return;
-        overlaps_.push_back(
-            {first.object, second.object, first.triangle, place->middle, place->normal, place->gap_m});
+        overlaps_.push_back({first.object, second.object, first.triangle, second.triangle, place->middle,
+                             place->normal, place->gap_m});
     }
 
     Corners corners_of(const Piece& piece) const {
@@ -412,6 +427,13 @@ std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_
         scene.lights, [](const Light& light) { return lights::emitting_object(light).has_value(); });
     if (of == OverlapsOf::lamps && !has_lamps) return {};
     return OverlapSearch(scene, of, most).run();
+}
+
+std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, double largest_gap_m) {
+    std::vector<std::array<std::uint32_t, 2>> pairs;
+    for (const Overlap& overlap : OverlapSearch(mesh, largest_gap_m).run())
+        pairs.push_back({overlap.triangle, overlap.second_triangle});
+    return pairs;
 }
 
 void put_lamps_in_front(Scene& scene) {

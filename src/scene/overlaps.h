@@ -1,6 +1,7 @@
 // Surfaces that lie in one plane and overlap there, and lamps that are modelled in the plane of a ceiling.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -13,8 +14,9 @@ namespace stilb::scene {
 struct Overlap {
     ObjectId first{}, second{};
     std::uint32_t triangle = 0;  ///< of the first, as Hit::triangle; 0 for a disk
-    Vec3 position, normal;       ///< the middle of the overlap; the unit normal of the front of the first
-    double gap_m = 0;            ///< how far the first lies in front of the second (on the side of `normal`)
+    std::uint32_t second_triangle = 0;
+    Vec3 position, normal;  ///< the middle of the overlap; the unit normal of the front of the first
+    double gap_m = 0;       ///< how far the first lies in front of the second (on the side of `normal`)
 };
 
 enum class OverlapsOf { all_surfaces, lamps };
@@ -24,6 +26,13 @@ enum class OverlapsOf { all_surfaces, lamps };
 /// left out, as are instances. `lamps`: only pairs of a lamp and another surface that is no lamp, with
 /// instances.
 std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_t most);
+
+/// Pairs of triangles of a mesh, by their numbers, that share more than a thousandth of the smaller one in
+/// one plane and are no farther apart there than `largest_gap_m`.
+std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, double largest_gap_m);
+
+/// The triangles of flat shapes other than meshes; of a disk those of a polygon. Curved shapes have none.
+Mesh flat_mesh(const Shape& shape);
 
 /// Moves lamps that lie in the plane of another surface in front of it, on the side that they light: by twice
 /// the distance by which points are lifted off a surface, 15 micrometres in a room of 8 m. Then every ray

@@ -47,11 +47,24 @@ Estimate estimate_from_replicates(std::span<const double> replicate_means, doubl
     return estimate_readings({replicate_means, 1}, confidence, {&rare_light, 1}).front();
 }
 
-double relative_half_width(const Estimate& estimate) {
+double relative_half_width(const Estimate& estimate, double least) {
     const double half_width = (estimate.upper - estimate.lower) / 2;
+    const double value = std::max(std::abs(estimate.value), least);
     if (half_width == 0) return 0;
-    if (estimate.value == 0) return std::numeric_limits<double>::infinity();
-    return half_width / std::abs(estimate.value);
+    if (value == 0) return std::numeric_limits<double>::infinity();
+    return half_width / value;
+}
+
+double dark_level(std::span<const double> values) {
+    double sum = 0;
+    for (const double value : values) sum += value;
+    return sum > 0 ? kDarkShare * sum / static_cast<double>(values.size()) : 0;
+}
+
+double dark_level(std::span<const Estimate> readings) {
+    std::vector<double> values(readings.size());
+    std::ranges::transform(readings, values.begin(), &Estimate::value);
+    return dark_level(values);
 }
 
 ReplicateMoments compute_replicate_moments(const ReplicateTable& table) {
@@ -119,8 +132,10 @@ bool rests_on_few_samples(const Estimate& reading, const LargestContributions& l
 }
 
 double attained_error(std::span<const Estimate> readings, double share) {
+    const double least = dark_level(readings);
     std::vector<double> half_widths(readings.size());
-    std::transform(readings.begin(), readings.end(), half_widths.begin(), relative_half_width);
+    std::ranges::transform(readings, half_widths.begin(),
+                           [&](const Estimate& estimate) { return relative_half_width(estimate, least); });
     return attained_error_of(std::move(half_widths), share);
 }
 

@@ -62,9 +62,15 @@ Estimate estimate_from_replicates(std::span<const double> replicate_means, doubl
 std::vector<Estimate> estimate_readings(const ReplicateTable& table, double confidence = 0.95,
                                         std::span<const double> rare_light = {});
 
-/// Half the interval's width over the value: 0 where both are 0 (a dark point is known exactly), infinite
-/// where only the value is 0.
-double relative_half_width(const Estimate& estimate);
+/// Half the interval's width over the value, or over `least` where the value is less: 0 where the width is 0
+/// (a dark point is known exactly), infinite where only that is not 0.
+double relative_half_width(const Estimate& estimate, double least = 0);
+
+/// Errors of a sensor's readings are relative to this share of their mean at least: those of dark readings
+/// are absolute. Points in a cupboard must not decide how long a run takes.
+inline constexpr double kDarkShare = 0.01;
+double dark_level(std::span<const double> values);
+double dark_level(std::span<const Estimate> readings);
 
 /// What an interval has beyond `half_width` on each side, 0 where it is narrower.
 struct Margins {
@@ -139,7 +145,8 @@ inline constexpr double kVerdictConfidence = 0.998;
 /// runs: it stops sooner where a value happens to be far from what is required.
 inline constexpr double kDecidedConfidence = 0.98;
 
-/// The relative half-width that this share of the readings meets; 0 without readings.
+/// The relative half-width, of dark readings that over dark_level(), that this share of a sensor's readings
+/// meets; 0 without readings.
 double attained_error(std::span<const Estimate> readings, double share = kReadingShare);
 double attained_error_of(std::vector<double> relative_half_widths, double share = kReadingShare);
 /// The half-width that readings with this share of all weight meet; weights are not negative, one for each

@@ -74,7 +74,8 @@ STILB_VECTORIZED void reflect_diffuse(const math::NumberPacket& __restrict numbe
         const float r = paths.throughput[0][i] * reflectance[0][i];
         const float g = paths.throughput[1][i] * reflectance[1][i];
         const float b = paths.throughput[2][i] * reflectance[2][i];
-        const float survival = patient_survival_probability(std::max(std::max(r, g), b));
+        const float largest = std::max(std::max(reflectance[0][i], reflectance[1][i]), reflectance[2][i]);
+        const float survival = patient_survival_probability(std::max(std::max(r, g), b), largest);
         const auto survives =
             static_cast<int>(math::lane_unit_interval(numbers.hashed(i, kRoulette)) < survival);
         const int goes_on = static_cast<int>(lanes[i] != 0) & survives;

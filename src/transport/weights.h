@@ -51,28 +51,39 @@ inline double balance(double pdf, double other_pdf) { return std::isinf(pdf) ? 1
 
 // Russian roulette, which ends random walks without bias.
 
-/// Below 1, so that walks end on white surfaces and in glass, too. The variance is finite only where the
-/// square of the reflectance is smaller (0.9995 and less): elsewhere few long walks with large throughputs
-/// would carry much of the light.
+/// Below 1, so that walks end on white surfaces and in glass, too.
 inline constexpr double kMostSurvival = 0.999;
+/// Walks on surfaces that reflect more than kMostSurvival, but less than this, survive as often as light
+/// does: they end, after many steps. With kMostSurvival their throughput would grow, and from a reflectance
+/// of 0.9995 on the variance would be infinite.
+inline constexpr double kWhite = 0.99999;
+
+/// The largest survival probability of a step with this factor, a double or, in loops over lanes, a float.
+template <typename Number>
+constexpr Number most_survival(Number factor) {
+    constexpr auto most = static_cast<Number>(kMostSurvival), white = static_cast<Number>(kWhite);
+    return factor < white ? std::max(factor, most) : most;
+}
 
 /// The survival probability of a walk before its throughput is multiplied by `factor`: it keeps the value of
 /// the largest band.
 constexpr double survival_probability(const Rgb& throughput, const Rgb& factor) {
     const double before = throughput.max();
-    return before > 0 ? std::min((throughput * factor).max() / before, kMostSurvival) : 0;
+    if (!(before > 0)) return 0;
+    const double kept = (throughput * factor).max() / before;
+    return std::min(kept, most_survival(kept));
 }
 
 /// The same for paths that gather light at every step, whose noise is less if they always survive while their
 /// throughput is large: roulette begins where the largest band would fall below an eighth.
-/// `largest`: that band, a double or, in loops over lanes, a float.
+/// `largest`: that band, a double or, in loops over lanes, a float. `factor`: the largest of all bands.
 template <typename Number>
-constexpr Number patient_survival_probability(Number largest) {
+constexpr Number patient_survival_probability(Number largest, Number factor) {
     constexpr Number roulette_threshold = 0.125;
-    return std::min(largest / roulette_threshold, static_cast<Number>(kMostSurvival));
+    return std::min(largest / roulette_threshold, most_survival(factor));
 }
 constexpr double patient_survival_probability(const Rgb& throughput, const Rgb& factor) {
-    return patient_survival_probability((throughput * factor).max());
+    return patient_survival_probability((throughput * factor).max(), factor.max());
 }
 
 }  // namespace stilb::transport

@@ -72,6 +72,27 @@ TEST(Auto, TakesAGuessForManyPointsUnderAnAreaLamp) {
     EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_guided));
 }
 
+/// A cupboard of which a fifth of the points are inside, open below and 1 mm above the floor: there is next
+/// to no light in it.
+TEST(Auto, TakesAGuessThoughSomePointsAreInACupboard) {
+    Scene scene = office_room();
+    Mesh cupboard = triangulated(Box{{0.2, 0.2, 0.001}, {1.5, 1.4, 1.8}});
+    std::erase_if(cupboard.triangles, [&](const Triangle& t) {
+        return std::ranges::all_of(t, [&](std::uint32_t v) { return cupboard.vertices[v].z < 0.01; });
+    });
+    add_object(scene, cupboard, diffuse(0.5));
+    const Choice choice(std::move(scene), room_grid(40));
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_guided));
+}
+
+/// Of few readings, one is in the dark.
+TEST(Auto, TracesPathsThoughAPointIsInABox) {
+    std::vector<Measurand> points = room_grid(4);
+    points.back() = MeasuringPoint{{2.1, 1, 0.3}, {0, 0, 1}};
+    const Choice choice(office_room(), points);
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_path));
+}
+
 /// Light paths end before a guess is made.
 TEST(Auto, TakesNoGuessUnderPointLightsForALargeError) {
     const Choice choice(room_with_point_lights(), grid({1, 1, 0.8}, 1.6, 0.8, 16, 8));

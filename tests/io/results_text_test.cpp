@@ -18,6 +18,24 @@ TEST(ResultsText, ShowsIntervalsWithoutAnUpperEnd) {
     EXPECT_EQ(with_error({none, none, none, none}), "-");
 }
 
+TEST(ResultsText, KeepsTheDigitsOfExactValues) {
+    const auto exact = [](double value) { return with_error({value, 0, value, value}); };
+    EXPECT_EQ(exact(0), "0.00 ± 0.00");
+    EXPECT_EQ(exact(1234.56), "1234.6 ± 0.0");
+    EXPECT_EQ(exact(12.345), "12.35 ± 0.00");
+    EXPECT_EQ(exact(0.98765), "0.988 ± 0.000");
+    EXPECT_EQ(exact(0.00123456), "0.00123 ± 0.00000");
+    EXPECT_EQ(exact(1.23456e-7), "1.23e-07 ± 0");
+    EXPECT_EQ(with_error({1.23456e-7, 1e-9, 1.22e-7, 1.24e-7}), "1.23e-07 ± 1e-09");
+}
+
+TEST(ResultsText, HasNoMinusBeforeZero) {
+    EXPECT_EQ(with_error({-0.001, 0.05, -0.101, 0.099}), "0.00 ± 0.10");
+    EXPECT_EQ(with_error({-0.06, 0.05, -0.16, 0.04}), "-0.06 ± 0.10");
+    EXPECT_EQ(fixed(-0.4, 0), "0");
+    EXPECT_EQ(fixed(-0.6, 0), "-1");
+}
+
 TEST(ResultsText, PercentHasTwoDigitsOrAllBeforeThePoint) {
     EXPECT_EQ(percent(0.00654), "0.65 %");
     EXPECT_EQ(percent(0.99), "99 %");

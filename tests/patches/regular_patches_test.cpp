@@ -72,6 +72,54 @@ TEST(RegularPatches, HitsAreWhereTheSceneIs) {
         look_around(RegularPatches(scene, caster, count, kEverywhere, Monitor::none()), caster, scene);
 }
 
+/// Parts of a triangle that become one point have no patches: the numbers of those behind them must not slip.
+TEST(RegularPatches, HitsStayOnTheirSurfacesWhereTrianglesAreThin) {
+    for (const double wall_m : {10., 1e5}) {
+        Scene scene;
+        add_object(scene, inward(Box{{0, 0, 0}, {8, 6, 3}}), diffuse(0.5));
+        std::vector<Mesh> slivers;
+        for (int i = 0; i < 8; ++i) {
+            const double y = 1 + 0.5 * i, width = std::pow(10., i - 7);
+            slivers.push_back({{{1, y, 1}, {7, y, 1}, {1.3, y + width, 1}}, {{0, 1, 2}}});
+            add_object(scene, slivers.back(), diffuse(0.5));
+        }
+        add_object(scene, Rectangle{{0, 0, wall_m}, {6, 0, 0}, {0, 0, 2.8}}, diffuse(0.5));
+        add_object(scene, Rectangle{{0.5, 0.1, 0.7}, {0.4, 0, 0}, {0, 0.4, 0}}, diffuse(0.5));
+        const rays::RayCaster caster(scene);
+        const RegularPatches regular(scene, caster, 20'000, kEverywhere, Monitor::none());
+        const Patches& patches = regular.patches();
+        RandomPairs random(5);
+        std::size_t on_slivers = 0;
+        for (const Mesh& sliver : slivers) {
+            for (int i = 0; i < 200; ++i) {
+                rays::RayHitPacket packet;
+                LaneMask lanes{};
+                for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+                    const auto [u1, u2] = random.next_pair();
+                    const auto [b0, b1, b2] = math::sample_triangle(u1, u2);
+                    const Vec3 target =
+                        b0 * sliver.vertices[0] + b1 * sliver.vertices[1] + b2 * sliver.vertices[2];
+                    const Vec3 origin{4, 3, 2.5};
+                    packet.ray.set(lane, origin - caster.center(), target - origin,
+                                   std::numeric_limits<float>::infinity());
+                    lanes[lane] = -1;
+                }
+                const PatchHits hits = regular.closest(packet, lanes, rays::Coherence::scattered);
+                for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+                    const std::uint32_t side = hits.sides[lane];
+                    if (packet.object[lane] == rays::kNothing || side == kNoSide) continue;
+                    ASSERT_LT(side, 2 * patches.count());
+                    const std::uint32_t patch = patches.patch_of(side);
+                    ASSERT_EQ(index_of(patches.object_of(patch)), packet.object[lane]);
+                    ASSERT_GT(patches.areas_m2[patch], 0);
+                    on_slivers += packet.object[lane] > 0;
+                }
+            }
+        }
+        EXPECT_GT(on_slivers, 1000u) << wall_m;
+    }
+}
+
 TEST(RegularPatches, CoverTheirSurfacesWithAboutTheWantedNumber) {
     const Scene scene = hall();
     const rays::RayCaster caster(scene);

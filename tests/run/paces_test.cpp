@@ -52,6 +52,23 @@ TEST(Paces, TakeAllWhereNothingHasBeenFound) {
     for (const estimators::Pace& pace : paces(0, means)) EXPECT_EQ(pace.every, 1u);
 }
 
+/// Packets in a cupboard, whose values are noise about 0, need no more samples than others.
+TEST(Paces, OfDarkReadingsFollowTheirAbsoluteVariances) {
+    std::vector<double> means = table_of({8, 4, 2, 1});
+    for (std::size_t r = 0; r < kReplicates; ++r) {
+        for (std::size_t j = 30; j < kReadings; ++j) means[r * kReadings + j] -= 100;
+    }
+    const auto all = paces(0, means);
+    EXPECT_EQ(all[0].every, 16u) << "1 beside a hundredth of 75 decides";
+    EXPECT_EQ(all[3].every, 1u);
+    for (std::size_t r = 0; r < kReplicates; ++r) {
+        for (std::size_t j = 30; j < kReadings; ++j) means[r * kReadings + j] *= 1e-3;
+    }
+    const auto darker = paces(0, means);
+    EXPECT_EQ(darker[0].every, 1u);
+    EXPECT_EQ(darker[3].every, 16u);
+}
+
 TEST(Paces, AreOneWhereTheOthersAreEqual) {
     const std::vector<double> means(kReplicates * kReadings, 0.1);
     for (const estimators::Pace& pace : paces(0, means)) EXPECT_EQ(pace.every, 1u);

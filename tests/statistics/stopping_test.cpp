@@ -39,6 +39,30 @@ TEST(Stopping, DarkReadingsAndNoReadingsAreDone) {
     EXPECT_GT(attained_error(unknown), 1e9);
 }
 
+/// Errors are relative to a hundredth of the mean at least.
+TEST(Stopping, ErrorsOfDarkReadingsAreAbsolute) {
+    std::vector<Estimate> readings(99, {.value = 100, .lower = 99, .upper = 101});
+    const auto error_of_last = [&](double value) {
+        readings.push_back({.value = value, .lower = value - 0.5, .upper = value + 0.5});
+        const double error = attained_error(readings, 1);
+        readings.pop_back();
+        return error;
+    };
+    const double level = 0.01 * 100 * 99 / (100 - 0.01);  // a reading that is 1 % of the mean
+    EXPECT_NEAR(error_of_last(level), 0.5 / level, 1e-9);
+    EXPECT_NEAR(error_of_last(1.01 * level), 0.5 / (1.01 * level), 1e-9);
+    EXPECT_NEAR(error_of_last(0.99 * level), 0.5 / level, 1e-4);
+    EXPECT_NEAR(error_of_last(0), 0.5 / 0.99, 1e-9);
+    EXPECT_NEAR(error_of_last(-0.3), 0.5 / (0.01 * (9900 - 0.3) / 100), 1e-9);
+}
+
+TEST(Stopping, APointInACupboardDoesNotDecide) {
+    std::vector<Estimate> readings(80, {.value = 100, .lower = 99, .upper = 101});
+    readings.resize(100, {.value = 1e-3, .lower = 0, .upper = 2e-3});
+    EXPECT_NEAR(attained_error(readings), 0.01, 1e-9);
+    EXPECT_DOUBLE_EQ(dark_level(readings), 0.01 * (0.8 * 100 + 0.2 * 1e-3));
+}
+
 /// A reading of true value 1 from 32 replicates of light paths, checked at growing sizes until it meets the
 /// target.
 class StoppedRun {

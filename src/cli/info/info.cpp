@@ -284,7 +284,7 @@ std::string run_text(const Json& run) {
 
 std::string memory_text(const Json& memory) {
     constexpr double mega = 1e6;
-    return fmt::format("Memory: {:.1f} MB at most; the meshes take {:.2f} MB\n",
+    return fmt::format("Memory to read it: {:.1f} MB at most; the meshes take {:.2f} MB\n",
                        number(memory, "peak_bytes") / mega, number(memory, "meshes_bytes") / mega);
 }
 

@@ -1,7 +1,9 @@
 #include "estimators/local/light_path_reception.h"
 
+#include <algorithm>
 #include <limits>
 
+#include "estimators/limits.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/gather.h"
 #include "estimators/local/split_plan.h"
@@ -28,14 +30,16 @@ LightPathReception::LightPathReception(const LocalTransport& transport, const Pr
       sub_points_(sub_points),
       plan_{problem.preparation_key.derived(kPlan), 0},
       area_m2_(surface_area_m2(transport.scene)),
+      paths_(paths_at_once(transport.scene, kPathsPerPass)),
+      pilot_paths_(paths_at_once(transport.scene, kPilotPaths)),
       k_per_m2_(sub_points.cells()) {
     if (transport.split != Split::none)
-        pilot_nodes_ = transport.trace_light_paths(problem.preparation_key.derived(kPilot), 0, kPilotPaths);
+        pilot_nodes_ = transport.trace_light_paths(problem.preparation_key.derived(kPilot), 0, pilot_paths_);
 }
 
 NearNodePool LightPathReception::trace(const Pass& pass) const {
-    return {transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * kPathsPerPass,
-                                         (pass.index + 1) * kPathsPerPass),
+    return {transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * paths_,
+                                         (pass.index + 1) * paths_),
             transport_.caster.center()};
 }
 
@@ -59,7 +63,7 @@ void LightPathReception::receive(const SubPointPacket& packet, const NearNodePoo
                  transport::VertexChoice::by_kernel);
     const double u = math::SampleStream(packet.key(pass, kSelection), pass.index).next();
     std::vector<transport::LightVertex> nodes = pool.select(near, near.size() / kPathsPerSelected + 1, u);
-    for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / kPathsPerPass;
+    for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / static_cast<double>(paths_);
     Connections(transport_.caster, tiles, transport_.monitor).collect(nodes, sums);
     if (!transport_.gathers) return;
     const std::vector<SplitPlan> plans(packet.receivers.size(), {0, 1});
@@ -73,10 +77,11 @@ double LightPathReception::k_per_m2_of(const Pixel& pixel) const {
         const std::vector<transport::Receiver> receivers = sub_points_.of_cell(cell, plan_);
         if (transport_.split == Split::none || receivers.empty())
             return std::numeric_limits<double>::infinity();
-        const PilotLight pilot{pilot_nodes_,     kPilotPaths, {}, area_m2_, transport_.max_reflections,
+        const PilotLight pilot{pilot_nodes_,     pilot_paths_, {}, area_m2_, transport_.max_reflections,
                                kPathsPerSelected};
         return plan_constant(transport_.caster, transport_.tracer, receivers, pilot,
-                             kPathsPerPass / kPathsPerSelected, kPilotRays, plan_.key.derived(cell));
+                             std::max<std::uint64_t>(1, paths_ / kPathsPerSelected), kPilotRays,
+                             plan_.key.derived(cell));
     });
 }
 

@@ -35,6 +35,7 @@ class LightPathReception {
     const SubPoints& sub_points_;
     Pass plan_;  ///< its sub-points represent the cells'
     double area_m2_;
+    std::uint64_t paths_, pilot_paths_;  ///< of a pass, and before all
     std::vector<transport::LightVertex> pilot_nodes_;
     OfCells<double> k_per_m2_;
 };

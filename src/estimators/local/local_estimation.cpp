@@ -30,6 +30,7 @@
 #include <memory>
 
 #include "estimators/estimator_list.h"
+#include "estimators/limits.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/direct_plan.h"
 #include "estimators/local/gather.h"
@@ -73,18 +74,18 @@ class LocalReadings {
     /// `guide`: may be null.
     LocalReadings(const LocalTransport& transport, const Problem& problem, const GuidedLight* guide)
         : transport_(transport),
-          seen_(receive(problem.measurands)),
+          seen_(receive(problem.measurands, guide)),
           stands_for_(problem.stands_for),
           paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(all_receivers()) : 1),
           selected_per_ray_(most_selected_per_ray(all_receivers())),
           is_guided_(guide && !seen_.receivers.empty()),
-          plans_(plans(problem, guide)),
-          tiles_(tiles_of(seen_.receivers, constants_per_m2(plans_.of_receivers), transport_.caster,
+          plans_(plans(problem)),
+          tiles_(tiles_of(connected_receivers(), constants_per_m2(plans_.of_receivers), transport_.caster,
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor),
           gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor) {
         if (!is_guided_) return;
-        guided_.emplace(*guide, seen_.receivers, transport_.monitor);
+        guided_.emplace(*guide, seen_.receivers, seen_.dark, transport_.monitor);
         guided_->add_known(seen_.known_part);
     }
 
@@ -96,7 +97,7 @@ class LocalReadings {
             return;
         }
         const std::uint64_t end = batch.first + batch.count;
-        const std::uint64_t block = kPathBlock * paths_per_selected_;
+        const std::uint64_t block = paths_at_once(transport_.scene, kPathBlock * paths_per_selected_);
         for (std::uint64_t first = batch.first; first < end; first += block) {
             connections_.collect(connected_vertices(batch.key, first, std::min(end, first + block)), sums);
         }
@@ -109,7 +110,7 @@ class LocalReadings {
     std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
     std::vector<double> expected_largest() const {
         std::vector<double> all(seen_.known_part.size());
-        for (std::size_t j = 0; j < seen_.receivers.size(); ++j) {
+        for (std::size_t j = 0; j < plans_.of_receivers.size(); ++j) {
             double& largest = all[seen_.receivers[j].reading()];
             const SplitPlan& plan = plans_.of_receivers[j];
             largest = std::max(largest, plan.largest_of_rays * static_cast<double>(plan.paths_per_ray));
@@ -181,6 +182,7 @@ class LocalReadings {
     /// Receivers, faint branches and known parts of the readings.
     struct Reception {
         std::vector<transport::Receiver> receivers;
+        std::size_t dark = 0;  ///< receivers at the end (GuidedLight::put_dark_last())
         struct Faint {
             std::uint32_t reading = 0;
             transport::FaintRay branch;
@@ -190,7 +192,7 @@ class LocalReadings {
         std::vector<std::optional<Vec3>> ends;  ///< of lines of sight
         transport::DirectLight::Prepared direct;
     };
-    Reception receive(std::span<const Measurand> measurands) const {
+    Reception receive(std::span<const Measurand> measurands, const GuidedLight* guide) const {
         Reception seen;
         seen.known_part.resize(measurands.size());
         seen.ends.resize(measurands.size());
@@ -219,6 +221,7 @@ class LocalReadings {
             }
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));
+        if (guide) seen.dark = guide->put_dark_last(seen.receivers, transport_.monitor);
         seen.direct = transport_.direct.prepare(seen.receivers, transport_.monitor);
         for (std::size_t j = 0; j < seen.receivers.size(); ++j)
             seen.known_part[seen.receivers[j].reading()] += seen.direct.known[j];
@@ -288,24 +291,27 @@ class LocalReadings {
         }
     }
 
+    /// Those of connections of light paths: a guess has receivers of its own.
+    std::span<const transport::Receiver> connected_receivers() const {
+        return is_guided_ ? std::span<const transport::Receiver>() : seen_.receivers;
+    }
+
     /// Also plans the samples of direct light.
-    SplitPlans plans(const Problem& problem, const GuidedLight* guide) {
-        if (seen_.receivers.empty()) return {};
-        if (is_guided_)
-            return {std::vector<SplitPlan>(seen_.receivers.size(),
-                                           {guide->k_per_m2(GuidedReadings::kPoints), 1})};
+    SplitPlans plans(const Problem& problem) {
+        if (connected_receivers().empty()) return {};
         if (transport_.split == Split::none) {
             return {std::vector<SplitPlan>(seen_.receivers.size(),
                                            {std::numeric_limits<double>::infinity(), kPathsPerSpecularRay})};
         }
         const math::RandomKey key = problem.preparation_key;
+        const std::uint64_t pilot_paths = paths_at_once(transport_.scene, kPilotPaths);
         const std::vector<transport::LightVertex> nodes =
-            transport_.trace_light_paths(key.derived(kPilot), 0, kPilotPaths);
+            transport_.trace_light_paths(key.derived(kPilot), 0, pilot_paths);
         const DirectPilot of_direct = pilot_direct(key.derived(kDirect));
         const std::vector<double> alike(problem.weights.empty() ? of_direct.direct.size() : 0, 1.0);
         const std::span<const double> weights = problem.weights.empty() ? alike : problem.weights;
         const PilotLight pilot{nodes,
-                               kPilotPaths,
+                               pilot_paths,
                                of_direct.direct,
                                surface_area_m2(transport_.scene),
                                transport_.max_reflections,

@@ -8,11 +8,17 @@
 namespace stilb::io {
 namespace {
 
-/// Two digits of the error, and at most six of the value.
+/// Decimals for so many digits of a number that is not 0.
+int decimals_after(double number, int digits) {
+    return digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(number))));
+}
+
+/// Two digits of the error, but at most six decimals; of exact values three digits at least.
 int decimals_for(const statistics::Estimate& e) {
     const double error = half_width(e);
-    if (!(error > 0) || !std::isfinite(error)) return std::abs(e.value) >= 1000 ? 1 : 2;
-    return std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, 6);
+    if (error > 0 && std::isfinite(error)) return std::clamp(decimals_after(error, 2), 0, 6);
+    const int usual = std::abs(e.value) >= 1000 ? 1 : 2;
+    return e.value == 0 ? usual : std::max(usual, decimals_after(e.value, 3));
 }
 
 std::string raster_text(const Area& area) {
@@ -34,8 +40,18 @@ std::string with_error(const statistics::Estimate& estimate) {
                    : fmt::format("{:.1f} (above {:.1f})", estimate.value, estimate.lower);
     }
     if (std::isnan(estimate.value)) return "-";
+    constexpr double tiny = 1e-4;  // of which six decimals say little
+    const double largest = std::max(std::abs(estimate.value), half_width(estimate));
+    if (largest > 0 && largest < tiny)
+        return fmt::format("{:.3g} ± {:.2g}", estimate.value, half_width(estimate));
     const int decimals = decimals_for(estimate);
-    return fmt::format("{:.{}f} ± {:.{}f}", estimate.value, decimals, half_width(estimate), decimals);
+    return fmt::format("{} ± {:.{}f}", fixed(estimate.value, decimals), half_width(estimate), decimals);
+}
+
+std::string fixed(double value, int decimals) {
+    std::string text = fmt::format("{:.{}f}", value, decimals);
+    const bool is_minus_zero = text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos;
+    return is_minus_zero ? text.substr(1) : text;
 }
 
 std::string with_unit(const statistics::Estimate& estimate, const Sensor& sensor) {

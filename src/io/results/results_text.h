@@ -19,6 +19,8 @@ namespace stilb::io {
 /// "498.2 +- 1.1": a value with the half-width of its interval, both with the digits that the interval
 /// leaves.
 std::string with_error(const statistics::Estimate& estimate);
+/// A number with so many decimals; never "-0".
+std::string fixed(double value, int decimals);
 /// "lx", "cd/m²"; empty for a ratio or a rating.
 std::string unit_of(const Sensor& sensor);
 /// With the unit after a space, if there is one.

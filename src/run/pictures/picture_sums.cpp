@@ -127,11 +127,15 @@ double PictureSums::attained_error(const std::vector<bool>& blind) const {
     const statistics::PooledErrors<float> errors = this->errors();
     const statistics::StudentQuantiles quantiles((1 + statistics::kStoppedConfidence) / 2,
                                                  errors.degrees_of_freedom);
-    std::vector<double> half_widths;
+    std::vector<double> values, half_widths;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) continue;
-        const double half_width = quantiles(errors.degrees_of_freedom[i]) * double{errors.standard_errors[i]};
-        half_widths.push_back(half_width > 0 ? half_width / luminance_cd_m2(i) : 0);
+        values.push_back(luminance_cd_m2(i));
+        half_widths.push_back(quantiles(errors.degrees_of_freedom[i]) * double{errors.standard_errors[i]});
+    }
+    const double dark = statistics::dark_level(values);
+    for (std::size_t i = 0; i < values.size(); ++i) {
+        if (half_widths[i] > 0) half_widths[i] /= std::max(values[i], dark);
     }
     return statistics::attained_error_of(std::move(half_widths));
 }

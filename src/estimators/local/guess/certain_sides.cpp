@@ -170,8 +170,9 @@ class CertainSides::Search {
     struct Block {
         std::size_t first = 0, last = 0;  ///< groups
         std::size_t children = 0;         ///< the first of two; 0: none
-        Bounds lifted, normals;
-        std::vector<Vec3> corners;  ///< of the box around the lifted points
+        Bounds lifted, normals, points;   ///< `points`: lifted and not
+        std::vector<Vec3> corners;        ///< of the box around the lifted points
+        std::vector<Vec3> point_corners;
 
         bool has_one_normal() const { return normals.min == normals.max; }
         double size_m() const { return length(lifted.max - lifted.min); }
@@ -182,10 +183,12 @@ class CertainSides::Search {
     };
 
     void make_block(std::size_t number, std::size_t first, std::size_t last) {
-        Block block{first, last, 0, {}, {}, {}};
+        Block block{first, last, 0, {}, {}, {}, {}, {}};
         if (last - first == 1) {
             for (const transport::Receiver& receiver : groups_[first]) {
                 block.lifted.include(receiver.lifted());
+                block.points.include(receiver.lifted());
+                block.points.include(receiver.position());
                 block.normals.include(receiver.normal());
             }
         } else {
@@ -195,29 +198,32 @@ class CertainSides::Search {
             make_block(block.children + 1, (first + last) / 2, last);
             for (const std::size_t child : {block.children, block.children + 1}) {
                 include(block.lifted, blocks_[child].lifted);
+                include(block.points, blocks_[child].points);
                 include(block.normals, blocks_[child].normals);
             }
         }
         block.corners = corners_of(block.lifted);
+        block.point_corners = corners_of(block.points);
         blocks_[number] = std::move(block);
     }
 
     Sight sight_of(const Block& block, const Cluster& cluster) {
         ++queries_;
-        // Receivers in the plane, too: they get nothing, and the closed form does not hold there.
+        // Receivers in the plane, too: they get nothing, and the closed form does not hold there. Where
+        // planes meet, their lifted points are in front of it.
         const double near_m = 4 * sides_.lift_m_;
         const Vec3 normal = sides_.guess_.patches().normal_of(sides_.sides_[cluster.first]);
         const std::span<const Vec3> polygon = cluster.polygon();
         const auto is_in_front = [&](const Vec3& corner) {
             return dot(normal, corner - polygon[0]) > near_m;
         };
-        const bool is_behind = std::ranges::none_of(block.corners, is_in_front);
+        const bool is_behind = std::ranges::none_of(block.point_corners, is_in_front);
         const bool is_below = std::ranges::all_of(polygon, [&](const Vec3& corner) {
             return largest_dot(block.normals, {corner - block.lifted.max, corner - block.lifted.min}) <
                    -near_m;
         });
         if (is_behind || is_below) return Sight::none;
-        if (!std::ranges::all_of(block.corners, is_in_front)) return Sight::uncertain;
+        if (!std::ranges::all_of(block.point_corners, is_in_front)) return Sight::uncertain;
         const bool is_empty = block.has_one_normal() ? is_empty_above_horizons(block, polygon)
                                                      : sides_.shafts_.is_empty(block.corners, polygon, {});
         return is_empty ? Sight::certain : Sight::uncertain;
@@ -237,8 +243,12 @@ class CertainSides::Search {
         const Block& block = blocks_[pair.block];
         const Cluster& cluster = sides_.clusters_[pair.cluster];
         for (std::size_t group = block.first; group < block.last; ++group) {
-            for (std::uint32_t i = cluster.first; i < cluster.last; ++i)
-                sights[group][sides_.sides_[i]] = sight;
+            for (std::uint32_t i = cluster.first; i < cluster.last; ++i) {
+                const std::uint32_t side = sides_.sides_[i];
+                // What other surfaces own of a side is not seen of it.
+                const bool is_whole = !sides_.guess_.shared_places().shares(side);
+                if (is_whole || sight == Sight::none) sights[group][side] = sight;
+            }
         }
     }
 

@@ -183,6 +183,16 @@ void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, 
     }
 }
 
+Rgb GuessGather::traced(const transport::Receiver& receiver, math::SampleStream stream) const {
+    const auto [u1, u2] = stream.next_two();
+    const auto sample = receiver.sample(u1, u2);
+    if (!sample) return {};
+    const auto hit = caster_.closest(receiver.lifted(), sample->direction);
+    if (!hit) return {};
+    return sample->weight *
+           tracer_.luminance_without_direct(*hit, sample->direction, transport::kUnlimited, stream);
+}
+
 auto GuessGather::continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const
     -> Continuation {
     const PartShares shares(g_over_k);

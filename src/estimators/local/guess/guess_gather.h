@@ -72,6 +72,8 @@ class GuessGather {
     /// light of the guess.
     void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
                            ReadingSums& readings) const;
+    /// A sample of a receiver's light by path tracing alone.
+    Rgb traced(const transport::Receiver& receiver, math::SampleStream stream) const;
     /// Adds the light of the rays to the readings, `weight` times.
     static void flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings);
 

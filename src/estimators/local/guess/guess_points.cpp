@@ -69,6 +69,7 @@ void GuessPoints::select(const Choice& choice, const std::array<double, 2>& u,
         const double across = u[1] + 0.6180339887498949 * static_cast<double>(points.size() - before);
         const std::uint32_t side = sides[i];
         const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
+        if (!guess_.shared_places().owns(side, at_side)) return;
         const SidePoint point = side_point(patches, caster_, side, at_side);
         const Rgb light = guess_.luminance_cd_m2(side, at_side) *
                           (double{patches.areas_m2[patches.patch_of(side)]} * times);

@@ -41,8 +41,8 @@ class GuessPoints {
     /// The k of connections to so many points of all lit sides at once.
     double k_per_m2(std::size_t count) const;
 
-    /// Adds points that lie evenly over the weights; the expectation over `u` of their light is that of all
-    /// the sides.
+    /// Adds points that lie evenly over the weights, but for those of places that other sides own; the
+    /// expectation over `u` of their light is that of all the sides.
     void select(const Choice& choice, const std::array<double, 2>& u,
                 std::vector<EmittingPoint>& points) const;
 

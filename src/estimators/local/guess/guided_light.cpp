@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "base/parallel.h"
 #include "estimators/limits.h"
 
 namespace stilb::estimators {
@@ -16,8 +17,17 @@ constexpr std::uint64_t kVerticesPerSample = 8;
 constexpr double kGroupExtent = 0.1;
 /// Receivers of a group for which points and vertices are chosen, at least.
 constexpr std::size_t kSpread = 4;
-/// Samples whose vertices are selected together.
+/// Samples whose vertices are selected together, at most.
 constexpr std::uint64_t kSamplesTogether = 64;
+/// Paths that show that a receiver is lit, and that it is not.
+constexpr std::uint64_t kPathsToLight = 8, kPathsToDark = 256;
+
+bool is_even(const transport::Receiver& receiver) {
+    return receiver.constant_response() && !receiver.is_body();
+}
+bool are_even(std::span<const transport::Receiver> receivers) {
+    return std::ranges::all_of(receivers, is_even);
+}
 
 }  // namespace
 
@@ -32,6 +42,10 @@ GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
                          const transport::LightSampler& lights, const transport::PathTracer& tracer,
                          math::RandomKey key, const Monitor& monitor)
     : caster(all),
+      finds_all_by_rays(!has_light_for_light_paths_only(scene)),
+      dark_key(key.derived(kDark)),
+      samples_together(std::max<std::uint64_t>(
+          1, paths_at_once(scene, kSamplesTogether * kPathsPerSample) / kPathsPerSample)),
       direct(scene, all, lights),
       guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
       residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
@@ -42,7 +56,7 @@ GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
 auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -> Divided {
     Divided divided;
     for (const transport::Receiver& receiver : receivers) {
-        if (receiver.constant_response() && !receiver.is_body()) {
+        if (is_even(receiver)) {
             divided.even.push_back(receiver);
             continue;
         }
@@ -58,6 +72,51 @@ auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -
     return divided;
 }
 
+std::size_t GuidedLight::put_dark_last(std::vector<transport::Receiver>& receivers,
+                                       const Monitor& monitor) const {
+    if (!finds_all_by_rays) return 0;
+    const auto finds_light = [&](std::size_t j, std::uint64_t paths) {
+        for (std::uint64_t i = 0; i < paths; ++i) {
+            if (gather.traced(receivers[j], math::SampleStream(dark_key.derived(j), i, 2)).max() > 0)
+                return true;
+        }
+        return false;
+    };
+    // Some of each sixteen neighbours first: where these are lit, and those of the neighbours are, all are.
+    const std::size_t tiles = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
+    const auto for_tiles = [&](const auto& look) {
+        const auto look_at_part = [&](std::size_t begin, std::size_t end) {
+            monitor.require_more();
+            for (std::size_t t = begin; t < end; ++t)
+                look(t, t * kPacketWidth, std::min((t + 1) * kPacketWidth, receivers.size()));
+        };
+        parallel_for_parts(tiles, look_at_part, 16);
+    };
+    std::vector<std::uint8_t> has_dark(tiles), is_dark(receivers.size());
+    for_tiles([&](std::size_t t, std::size_t first, std::size_t last) {
+        for (std::size_t j = first; j < last; j += 5)
+            has_dark[t] = has_dark[t] != 0 || !finds_light(j, kPathsToLight) ? 1 : 0;
+    });
+    for_tiles([&](std::size_t t, std::size_t first, std::size_t last) {
+        constexpr std::size_t around = 2;
+        const auto begin = has_dark.begin() + static_cast<std::ptrdiff_t>(t - std::min(t, around));
+        const auto end = has_dark.begin() + static_cast<std::ptrdiff_t>(std::min(tiles, t + around + 1));
+        if (std::find(begin, end, 1) == end) return;
+        for (std::size_t j = first; j < last; ++j)
+            is_dark[j] = is_even(receivers[j]) && !finds_light(j, kPathsToDark) ? 1 : 0;
+    });
+    const auto count = static_cast<std::size_t>(std::ranges::count(is_dark, 1));
+    if (count == 0 || 2 * count > receivers.size()) return 0;
+    std::vector<transport::Receiver> sorted;
+    for (const bool dark : {false, true}) {
+        for (std::size_t j = 0; j < receivers.size(); ++j) {
+            if ((is_dark[j] != 0) == dark) sorted.push_back(receivers[j]);
+        }
+    }
+    receivers = std::move(sorted);
+    return count;
+}
+
 std::vector<PointTile> GuidedLight::tiles(std::span<const transport::Receiver> receivers,
                                           std::size_t points_at_once) const {
     return tiles_of(receivers, std::vector<double>(receivers.size(), k_per_m2(points_at_once)), caster,
@@ -65,11 +124,13 @@ std::vector<PointTile> GuidedLight::tiles(std::span<const transport::Receiver> r
 }
 
 GuidedReadings::GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
-                               const Monitor& monitor)
+                               std::size_t dark, const Monitor& monitor)
     : light_(light),
-      receivers_(light.divide(receivers)),
-      tiles_(light.tiles(receivers_.even, kPoints)),
-      general_tiles_(light.tiles(receivers_.general, kPoints)),
+      divided_(are_even(receivers) ? GuidedLight::Divided{} : light.divide(receivers)),
+      even_(are_even(receivers) ? receivers : divided_.even),
+      lit_(even_.size() - dark),
+      tiles_(light.tiles(even_.first(lit_), kPoints)),
+      general_tiles_(light.tiles(divided_.general, kPoints)),
       groups_(groups_of(tiles_, kGroupExtent * light.caster.half_extent_m())),
       general_groups_(groups_of(general_tiles_, kGroupExtent * light.caster.half_extent_m())),
       monitor_(monitor) {
@@ -80,11 +141,11 @@ void GuidedReadings::make_sources() {
     std::vector<CertainSides::Group> receivers;
     for (const Group& group : groups_) {
         const std::size_t first = group.first * kPacketWidth,
-                          last = std::min(group.last * kPacketWidth, receivers_.even.size());
-        receivers.push_back(std::span(receivers_.even).subspan(first, last - first));
+                          last = std::min(group.last * kPacketWidth, lit_);
+        receivers.push_back(even_.subspan(first, last - first));
     }
     std::vector<Sights> sights = light_.sides.find(receivers);
-    known_.resize(receivers_.even.size());
+    known_.resize(lit_);
     sources_.reserve(groups_.size());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         monitor_.require_more();
@@ -104,7 +165,7 @@ void GuidedReadings::make_sources() {
 }
 
 void GuidedReadings::add_known(std::span<Rgb> readings) const {
-    for (std::size_t j = 0; j < known_.size(); ++j) readings[receivers_.even[j].reading()] += known_[j];
+    for (std::size_t j = 0; j < known_.size(); ++j) readings[even_[j].reading()] += known_[j];
 }
 
 auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_extent_m)
@@ -143,22 +204,22 @@ auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_
 void GuidedReadings::collect(const Batch& batch, ReadingSums& sums) const {
     gather(batch, sums);
     gather_general(batch, sums);
+    gather_dark(batch, sums);
     connect_residual(batch, sums);
 }
 
 double GuidedReadings::rays_per_sample() const {
     // Rays of packets take less time than others.
     constexpr double of_path = 25, of_even = 3, of_general = 12;
-    return of_path * static_cast<double>(kPathsPerSample) +
-           of_even * static_cast<double>(receivers_.even.size()) +
-           of_general * static_cast<double>(receivers_.general.size());
+    return of_path * static_cast<double>(kPathsPerSample) + of_even * static_cast<double>(even_.size()) +
+           of_general * static_cast<double>(divided_.general.size());
 }
 
 double GuidedReadings::cost_per_sample(double stands_for) const {
     constexpr double of_path = 80, of_even = 5, of_general = 15;
     return of_path * static_cast<double>(kPathsPerSample) +
-           stands_for * (of_even * static_cast<double>(receivers_.even.size()) +
-                         of_general * static_cast<double>(receivers_.general.size()));
+           stands_for * (of_even * static_cast<double>(even_.size()) +
+                         of_general * static_cast<double>(divided_.general.size()));
 }
 
 void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const {
@@ -168,6 +229,17 @@ void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
             light_.gather.add_general_round(general_tiles_[t], key, i, sums);
         sums.rays += batch.count * general_tiles_[t].receivers.size();
+    }
+}
+
+void GuidedReadings::gather_dark(const Batch& batch, ReadingSums& sums) const {
+    for (std::size_t j = lit_; j < even_.size(); ++j) {
+        monitor_.require_more();
+        const Batch own = batch.of_packet(j / kPacketWidth);
+        const math::RandomKey key = batch.key.derived(kDark).derived(j);
+        for (std::uint64_t i = own.first; i < own.first + own.count; ++i)
+            sums.add(even_[j].reading(), light_.gather.traced(even_[j], math::SampleStream(key, i, 2)));
+        sums.rays += own.count;
     }
 }
 
@@ -201,8 +273,8 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
 
 void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) const {
     const std::uint64_t end = batch.first + batch.count;
-    for (std::uint64_t first = batch.first; first < end; first += kSamplesTogether) {
-        const std::uint64_t last = std::min(end, first + kSamplesTogether);
+    for (std::uint64_t first = batch.first; first < end; first += light_.samples_together) {
+        const std::uint64_t last = std::min(end, first + light_.samples_together);
         std::vector<transport::LightVertex> nodes = light_.residual.trace(
             batch.key.derived(kResidual), first * kPathsPerSample, last * kPathsPerSample);
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);

@@ -47,8 +47,16 @@ struct GuidedLight {
     std::vector<PointTile> tiles(std::span<const transport::Receiver> receivers,
                                  std::size_t points_at_once) const;
 
-    enum Purpose : std::uint64_t { kGuess, kPilot };
+    /// Moves receivers that hardly any light reaches, as in a cupboard, to the end, and returns their number:
+    /// their light, if there is any, is found by path tracing, without the noise that the residual brings
+    /// into the dark. None where they are many: then they are what is measured.
+    std::size_t put_dark_last(std::vector<transport::Receiver>& receivers, const Monitor& monitor) const;
+
+    enum Purpose : std::uint64_t { kGuess, kPilot, kDark };
     const rays::RayCaster& caster;
+    bool finds_all_by_rays;          ///< no light is found by light paths alone
+    math::RandomKey dark_key;        ///< of the search for dark receivers
+    std::uint64_t samples_together;  ///< whose vertices of the residual are selected together
     BoundedDirect direct;
     LightGuess guess;
     ResidualLight residual;
@@ -57,7 +65,7 @@ struct GuidedLight {
     CertainSides sides;
 };
 
-/// Light of readings. Keeps references to its arguments' targets. Immutable.
+/// Light of readings. Keeps references to its arguments' targets, also to the receivers. Immutable.
 class GuidedReadings {
   public:
     /// Samples of a batch are a multiple of this. A sample is one gathering ray from every receiver, with its
@@ -68,11 +76,12 @@ class GuidedReadings {
     /// closed forms bring much of the light.
     static constexpr std::size_t kPoints = 8;
 
-    GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers,
+    /// `dark`: so many receivers at the end are dark.
+    GuidedReadings(const GuidedLight& light, std::span<const transport::Receiver> receivers, std::size_t dark,
                    const Monitor& monitor);
 
-    /// A packet of readings with a pace of its own is a tile of the receivers, so there must be as many of
-    /// these as readings, all of constant response.
+    /// A packet of readings with a pace of its own is sixteen receivers in their order, so there must be as
+    /// many of these as readings, all of constant response.
     void collect(const Batch& batch, ReadingSums& sums) const;
     bool can_have_paces() const { return general_tiles_.empty(); }
     /// Adds the light that needs no samples.
@@ -83,7 +92,7 @@ class GuidedReadings {
     double cost_per_sample(double stands_for) const;
 
   private:
-    enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral };
+    enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral, kDark };
     /// Tiles first ... last - 1, which lie so close together that the same is near to all of them.
     struct Group {
         std::size_t first = 0, last = 0;
@@ -100,16 +109,20 @@ class GuidedReadings {
     void make_sources();
     void gather(const Batch& batch, ReadingSums& sums) const;
     void gather_general(const Batch& batch, ReadingSums& sums) const;
+    void gather_dark(const Batch& batch, ReadingSums& sums) const;
     void connect_residual(const Batch& batch, ReadingSums& sums) const;
     void connect(const NearNodePool& pool, std::span<const PointTile> tiles, std::span<const Group> groups,
                  const Batch& batch, ReadingSums& sums) const;
 
     const GuidedLight& light_;
-    GuidedLight::Divided receivers_;
-    std::vector<PointTile> tiles_, general_tiles_;
+    /// Empty where all receivers are even as they are: there may be millions.
+    GuidedLight::Divided divided_;
+    std::span<const transport::Receiver> even_;
+    std::size_t lit_;                               ///< of the even ones; those behind them are dark
+    std::vector<PointTile> tiles_, general_tiles_;  ///< not of dark ones
     std::vector<Group> groups_, general_groups_;
     std::vector<Sources> sources_;  ///< per group of tiles_
-    std::vector<Rgb> known_;        ///< per even receiver
+    std::vector<Rgb> known_;        ///< per even receiver that is lit
     const Monitor& monitor_;
 };
 

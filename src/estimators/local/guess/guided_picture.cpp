@@ -3,6 +3,7 @@
 #include <mutex>
 #include <optional>
 
+#include "estimators/limits.h"
 #include "estimators/local/connection.h"
 #include "estimators/local/light_path_reception.h"
 #include "estimators/local/local_picture.h"
@@ -178,7 +179,8 @@ class GuidedPicture final : public LocalPicture {
     std::vector<transport::LightVertex> trace_residual(const Pass& pass) const {
         const auto& [width, height] = sub_points_.tracing().camera.resolution;
         const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
-        const std::uint64_t paths = std::clamp<std::uint64_t>(pixels / kPixelsPerPath, 16, kMostPaths);
+        const std::uint64_t paths = paths_at_once(
+            transport_.scene, std::clamp<std::uint64_t>(pixels / kPixelsPerPath, 16, kMostPaths));
         std::vector<transport::LightVertex> nodes =
             guide_.residual.trace(pass.key.derived(kResidual), pass.index * paths, (pass.index + 1) * paths);
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(paths);

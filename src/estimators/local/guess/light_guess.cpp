@@ -222,7 +222,9 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
       is_traced_object_(traced_objects(scene)),
       patches_(
           scene, caster, kPatches,
-          [this](ObjectId object, MaterialId material) { return !is_traced(object, material); }, monitor) {
+          [this](ObjectId object, MaterialId material) { return !is_traced(object, material); }, monitor),
+      shared_(scene, caster, patches(),
+              [this](ObjectId object, MaterialId material) { return is_traced(object, material); }) {
     std::vector<std::uint32_t> sides;
     for (std::uint32_t p = 0; p < patches().count(); ++p) {
         if (material(p).diffuse_reflectance().max() > 0)
@@ -231,6 +233,7 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
     const Solver solver{*this, caster, direct, tracer, key, monitor};
     lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
     std::ranges::sort(lit_sides_);
+    shared_.set_lit(lit_sides_);
     interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
     for (const std::uint32_t side : lit_sides_)
         lit_area_m2_ += double{patches().areas_m2[patches().patch_of(side)]};
@@ -264,9 +267,21 @@ Rgb LightGuess::luminance_cd_m2(std::uint32_t side, const math::Barycentric& at)
     return luminance;
 }
 
+void LightGuess::go_to_owners(patches::PatchHits& hits) const {
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        if (hits.sides[i] == patches::kNoSide || !shared_.shares(hits.sides[i])) continue;
+        const SharedPlaces::Place owner = shared_.owner_of(hits.sides[i], hits.barycentric(i));
+        hits.sides[i] = owner.side;
+        hits.b1[i] = static_cast<float>(owner.at.b1);
+        hits.b2[i] = static_cast<float>(owner.at.b2);
+        if (owner.side == patches::kNoSide) hits.exact_lanes |= 1u << i;
+    }
+}
+
 void LightGuess::look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
                       GuessedLight& light) const {
-    const patches::PatchHits hits = patches_.closest(packet, lanes, coherence);
+    patches::PatchHits hits = patches_.closest(packet, lanes, coherence);
+    go_to_owners(hits);
     light.traced_lanes = hits.exact_lanes;
     light.sides = hits.sides;
     light.b1 = hits.b1;

@@ -19,6 +19,7 @@
 
 #include "base/monitor.h"
 #include "estimators/local/guess/bounded_direct.h"
+#include "estimators/local/guess/shared_places.h"
 #include "materials/split_material.h"
 #include "math/random.h"
 #include "patches/regular_patches.h"
@@ -62,7 +63,11 @@ class LightGuess {
     }
     const materials::SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
     /// Whether the surface that a ray has met is traced.
-    bool is_traced(const rays::Hit& hit) const { return is_traced(hit.object, hit.material); }
+    bool is_traced(const rays::Hit& hit) const {
+        return is_traced(hit.object, hit.material) || shared_.is_traced_at(hit.position);
+    }
+    /// The places that several sides share: only their owners send out light there.
+    const SharedPlaces& shared_places() const { return shared_; }
 
     /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
     Rgb luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const;
@@ -83,10 +88,13 @@ class LightGuess {
         return is_traced_object_[index_of(object)] != 0 || is_traced_material_[index_of(material)] != 0;
     }
     void interpolate(const std::vector<Rgb>& luminance_of_sides);
+    /// Takes hits of shared places to the owners.
+    void go_to_owners(patches::PatchHits& hits) const;
 
     std::vector<materials::SplitMaterial> materials_;                  ///< per material of the scene
     std::vector<std::uint8_t> is_traced_material_, is_traced_object_;  ///< per material, per object
     patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
+    SharedPlaces shared_;
     std::vector<std::uint32_t> lit_sides_;
     std::vector<CornerLuminances> corners_;  ///< per side
     double lit_area_m2_ = 0;

@@ -160,16 +160,27 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
 
 Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at,
                                  math::SampleStream& stream) const {
-    const Start start = start_at(side, at, 1, BoundedDirect::Part::all, stream);
-    const Rgb& reflectance = guess_.material(side).diffuse_reflectance();
-    Rgb missing_lx = start.missing_lx;
-    // The factor of a step is reflectance / survival: its square times survival must be less than 1.
-    const double survival = reflectance.max();
-    if (stream.next() < survival) missing_lx += missing_around_lx(start.point, stream) * (1 / survival);
-    return missing_lx * (reflectance * (1 / kPi));
+    // A walk, not a recursion: in white rooms it takes thousands of steps.
+    std::vector<Step> steps;
+    Around next{side, at, {}};
+    while (next.side != patches::kNoSide) {
+        const Start start = start_at(next.side, next.at, 1, BoundedDirect::Part::all, stream);
+        const Rgb& reflectance = guess_.material(next.side).diffuse_reflectance();
+        // The factor of a step is reflectance / survival: its square times survival must be less than 1.
+        const double survival = transport::survival_probability(Rgb::grey(1), reflectance);
+        steps.push_back({start.missing_lx, reflectance, survival});
+        next = stream.next() < survival ? look_around(start.point, stream) : Around{};
+    }
+    Rgb missing_cd_m2 = next.missing_cd_m2;
+    for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
+        Rgb missing_lx = step->missing_lx;
+        if (step->survival > 0) missing_lx += missing_cd_m2 * kPi * (1 / step->survival);
+        missing_cd_m2 = missing_lx * (step->reflectance * (1 / kPi));
+    }
+    return missing_cd_m2;
 }
 
-Rgb ResidualLight::missing_around_lx(const SidePoint& point, math::SampleStream& stream) const {
+auto ResidualLight::look_around(const SidePoint& point, math::SampleStream& stream) const -> Around {
     const auto [u1, u2] = stream.next_two();
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -182,11 +193,11 @@ Rgb ResidualLight::missing_around_lx(const SidePoint& point, math::SampleStream&
     const std::uint32_t side = light.sides[0];
     // Traced surfaces lack nothing.
     if (side == patches::kNoSide || (light.traced_lanes & 1u) != 0) return {};
-    if (!guess_.material(side).gloss) return missing_cd_m2(side, light.barycentric_of(0), stream) * kPi;
+    if (!guess_.material(side).gloss) return {side, light.barycentric_of(0), {}};
     const auto hit = caster_.closest(point.lifted, direction);
     if (!hit) return {};
     const Rgb all = tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream);
-    return (all + light.luminance_of(0) * -1) * kPi;
+    return {patches::kNoSide, {}, all + light.luminance_of(0) * -1};
 }
 
 std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,
@@ -226,8 +237,9 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const math::DiscreteChoice choice = by_residual_.choose(stream.next());
     const std::uint32_t side = sides_[choice.index];
     const auto u = stream.next_two();
-    const Start start = start_at(side, math::sample_triangle(u[0], u[1]), kResidualPackets,
-                                 BoundedDirect::Part::bounded, stream);
+    const math::Barycentric at = math::sample_triangle(u[0], u[1]);
+    if (!guess_.shared_places().owns(side, at)) return;
+    const Start start = start_at(side, at, kResidualPackets, BoundedDirect::Part::bounded, stream);
     const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
     const materials::SplitMaterial& parts = guess_.material(side);
     const auto& [position, lifted, normal] = start.point;

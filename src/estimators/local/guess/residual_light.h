@@ -48,8 +48,19 @@ class ResidualLight {
     };
     Start start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
                    BoundedDirect::Part part, math::SampleStream& stream) const;
-    /// A sample of the illuminance of a point by light that the guess lacks at the surfaces around [lx].
-    Rgb missing_around_lx(const SidePoint& point, math::SampleStream& stream) const;
+    /// One step of a walk: r, as in Start, and what of the rest of the walk comes back.
+    struct Step {
+        Rgb missing_lx, reflectance;
+        double survival = 0;
+    };
+    /// What a ray from a point meets: a side where the walk goes on, or a surface of which a sample of what
+    /// the guess lacks there is known.
+    struct Around {
+        std::uint32_t side = patches::kNoSide;
+        math::Barycentric at;
+        Rgb missing_cd_m2;
+    };
+    Around look_around(const SidePoint& point, math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
