@@ -75,7 +75,7 @@ verify-random: setup ## SCENES random scenes (2000), from SEED (1), each measure
 	@$(call configure,release)
 	@cmake --build --preset release --target verify_random
 	$(RELEASE)/verify_random --thresholds
-	$(RELEASE)/verify_random --long --seed $(SEED) $(or $(SCENES),2000)
+	$(RELEASE)/verify_random --seed $(SEED) $(or $(SCENES),2000)
 
 web: setup ## check and build the page of `stilb view` alone: build/release/page/dist
 	@$(call configure,release)
