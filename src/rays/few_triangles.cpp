@@ -18,7 +18,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Rays in Pluecker coordinates.
 struct alignas(64) Lines {
     LaneVectors direction, moment;
-    Floats reach;  ///< scale of the rounding errors of products with an edge of length 1
+    Floats length, reach;  ///< bounds of |direction|, and of |origin| |direction|
 };
 
 /// A triangle through which some lines pass.
@@ -36,8 +36,7 @@ struct alignas(64) Nearest {
 
 STILB_INLINED float dot(const Vector& v, float x, float y, float z) { return v[0] * x + v[1] * y + v[2] * z; }
 
-STILB_VECTORIZED void find_lines(const RayPacket& __restrict rays, float half_extent_m,
-                                 Lines& __restrict lines) {
+STILB_VECTORIZED void find_lines(const RayPacket& __restrict rays, Lines& __restrict lines) {
     for (int i = 0; i < kPacketWidth; ++i) {
         const float x = rays.origin_x[i], y = rays.origin_y[i], z = rays.origin_z[i];
         const float dx = rays.direction_x[i], dy = rays.direction_y[i], dz = rays.direction_z[i];
@@ -45,9 +44,8 @@ STILB_VECTORIZED void find_lines(const RayPacket& __restrict rays, float half_ex
         lines.moment.x[i] = y * dz - z * dy;
         lines.moment.y[i] = z * dx - x * dz;
         lines.moment.z[i] = x * dy - y * dx;
-        const float farthest_m =
-            std::max(std::max(std::abs(x), std::abs(y)), std::max(std::abs(z), half_extent_m));
-        lines.reach[i] = farthest_m * (std::abs(dx) + std::abs(dy) + std::abs(dz));
+        lines.length[i] = std::abs(dx) + std::abs(dy) + std::abs(dz);
+        lines.reach[i] = lines.length[i] * (std::abs(x) + std::abs(y) + std::abs(z));
     }
 }
 
@@ -57,25 +55,56 @@ STILB_INLINED float product(const TestedTriangle::Edge& edge, const Lines& lines
            edge.direction[1] * lines.moment.y[i] + edge.direction[2] * lines.moment.z[i];
 }
 
-/// Returns their number. Without branches, which could not be predicted.
+Vec3 wide(const Vector& v) { return {v[0], v[1], v[2]}; }
+Vector narrow(const Vec3& v) {
+    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
+}
+
+/// Finds exactly which of the lanes that may be inside are, and returns whether any is. Products change their
+/// sign with the order of an edge's ends and are the same otherwise, bit by bit, as differences and products
+/// of single precision are exact in double precision.
+std::int32_t settle(const TestedTriangle& triangle, const RayPacket& rays, Crossed& crossed) {
+    std::int32_t any = 0;
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        if (crossed.is_inside[i] == 0) continue;
+        const Vec3 origin{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]};
+        const Vec3 direction{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
+        const Vec3 a = wide(triangle.corners[0]) - origin, b = wide(triangle.corners[1]) - origin,
+                   c = wide(triangle.corners[2]) - origin;
+        const double u = stilb::dot(cross(c, a), direction), v = stilb::dot(cross(a, b), direction),
+                     w = stilb::dot(cross(b, c), direction);
+        crossed.u[i] = static_cast<float>(u), crossed.v[i] = static_cast<float>(v);
+        crossed.w[i] = static_cast<float>(w);
+        crossed.is_inside[i] = std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0 ? 1 : 0;
+        any |= crossed.is_inside[i];
+    }
+    return any;
+}
+
+/// Returns their number. Without branches that could not be predicted.
 STILB_VECTORIZED std::size_t find_crossed(const TestedTriangle* __restrict triangles, std::size_t count,
-                                          const Lines& __restrict lines, AllCrossed& __restrict all) {
+                                          const RayPacket& rays, const Lines& __restrict lines,
+                                          AllCrossed& __restrict all) {
     std::size_t found = 0;
     for (std::size_t n = 0; n < count; ++n) {
         const TestedTriangle& triangle = triangles[n];
         Crossed& crossed = all[found];
-        std::int32_t any = 0;
+        std::int32_t any = 0, any_unsure = 0;
         for (int i = 0; i < kPacketWidth; ++i) {
             const float u = product(triangle.edges[0], lines, i);
             const float v = product(triangle.edges[1], lines, i);
             const float w = product(triangle.edges[2], lines, i);
-            const float tolerance = triangle.tolerance * lines.reach[i];
-            const int on_front = static_cast<int>(std::min(std::min(u, v), w) >= -tolerance);
-            const int on_back = static_cast<int>(std::max(std::max(u, v), w) <= tolerance);
+            const float rounding =
+                triangle.rounding_m2 * lines.length[i] + triangle.rounding_m * lines.reach[i];
+            const float least = std::min(std::min(u, v), w), most = std::max(std::max(u, v), w);
+            const int may_be = static_cast<int>(least >= -rounding) | static_cast<int>(most <= rounding);
+            const int is_sure = static_cast<int>(least > rounding) | static_cast<int>(most < -rounding);
             crossed.u[i] = u, crossed.v[i] = v, crossed.w[i] = w;
-            crossed.is_inside[i] = on_front | on_back;
-            any |= on_front | on_back;
+            crossed.is_inside[i] = may_be;
+            any |= may_be;
+            any_unsure |= may_be & ~is_sure;
         }
+        if (any_unsure != 0) any = settle(triangle, rays, crossed);
         crossed.number = static_cast<std::uint32_t>(n);
         found += static_cast<std::size_t>(any);
     }
@@ -84,7 +113,7 @@ STILB_VECTORIZED std::size_t find_crossed(const TestedTriangle* __restrict trian
 
 /// In units of the ray's direction; infinite or not a number along the triangle.
 STILB_INLINED float distance(const TestedTriangle& triangle, const RayPacket& rays, int i) {
-    const Vector& corner = triangle.corner;
+    const Vector& corner = triangle.corners[0];
     const float height = dot(triangle.normal, corner[0] - rays.origin_x[i], corner[1] - rays.origin_y[i],
                              corner[2] - rays.origin_z[i]);
     return height / dot(triangle.normal, rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]);
@@ -116,26 +145,25 @@ STILB_VECTORIZED void keep_open(const TestedTriangle& __restrict triangle, const
     }
 }
 
-Vec3 wide(const Vector& v) { return {v[0], v[1], v[2]}; }
-Vector narrow(const Vec3& v) {
-    return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
-}
-
 }  // namespace
 
 void FewTriangles::add(std::uint32_t object, std::uint32_t primitive, const std::array<Vector, 3>& corners) {
-    constexpr double rounding_error = 0x1p-21;
+    // Each product is a sum of six terms, of which the ray's moment has the largest error: some ten roundings
+    // of 2^-24, and single precision for the bound itself.
+    constexpr double rounding_error = 0x1p-20;
     const std::array<Vec3, 3> p{wide(corners[0]), wide(corners[1]), wide(corners[2])};
     TestedTriangle& triangle = triangles_.emplace_back();
-    double longest_m = 0;
+    double longest_m = 0, farthest_m = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &from = p[i], &to = p[(i + 2) % 3];
         triangle.edges[i] = {narrow(from - to), narrow(cross(to, from))};
         longest_m = std::max(longest_m, length(to - from));
+        farthest_m = std::max(farthest_m, length(from));
     }
-    triangle.corner = corners[0];
+    triangle.corners = corners;
     triangle.normal = narrow(normalized(cross(p[1] - p[0], p[2] - p[0])));
-    triangle.tolerance = static_cast<float>(rounding_error * longest_m);
+    triangle.rounding_m = static_cast<float>(rounding_error * longest_m);
+    triangle.rounding_m2 = static_cast<float>(rounding_error * longest_m * farthest_m);
     triangle.object = object, triangle.primitive = primitive;
 }
 
@@ -147,9 +175,9 @@ bool FewTriangles::are_faster(const LaneMask& lanes) const {
 
 void FewTriangles::closest(RayHitPacket& packet, const LaneMask& lanes) const {
     Lines lines;
-    find_lines(packet.ray, half_extent_m_, lines);
+    find_lines(packet.ray, lines);
     AllCrossed crossed;
-    const std::size_t count = find_crossed(triangles_.data(), triangles_.size(), lines, crossed);
+    const std::size_t count = find_crossed(triangles_.data(), triangles_.size(), packet.ray, lines, crossed);
     Nearest nearest;
     for (std::size_t i = 0; i < kPacketWidth; ++i)
         nearest.end[i] = lanes[i] != 0 ? packet.ray.end[i] : -kInfinity;
@@ -171,9 +199,9 @@ void FewTriangles::closest(RayHitPacket& packet, const LaneMask& lanes) const {
 
 void FewTriangles::occlude(RayPacket& packet, const LaneMask& lanes) const {
     Lines lines;
-    find_lines(packet, half_extent_m_, lines);
+    find_lines(packet, lines);
     AllCrossed crossed;
-    const std::size_t count = find_crossed(triangles_.data(), triangles_.size(), lines, crossed);
+    const std::size_t count = find_crossed(triangles_.data(), triangles_.size(), packet, lines, crossed);
     LaneMask open = lanes;
     for (std::size_t n = 0; n < count; ++n)
         keep_open(triangles_[crossed[n].number], crossed[n], packet, open);

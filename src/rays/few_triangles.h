@@ -2,9 +2,9 @@
 // rays one by one where they part.
 //
 // A line passes through a triangle if it passes the three edges on one side, by its products with them in
-// Pluecker coordinates [Shoemake 1998]. Triangles that share an edge have the same product with opposite
-// signs, bit by bit: no ray passes between them. Edges are widened by the rounding error of the products, so
-// that none passes where many of them meet.
+// Pluecker coordinates [Shoemake 1998]. Products that may have the wrong sign by their rounding error are
+// computed again in double precision. So rays meet each triangle exactly where it is: none passes between two
+// of them, and none is caught beside an edge, as at a small opening.
 #pragma once
 
 #include <array>
@@ -23,8 +23,11 @@ struct TestedTriangle {
         Vector direction, moment;
     };
     std::array<Edge, 3> edges;  ///< opposite the second, the third and the first corner
-    Vector corner, normal;
-    float tolerance = 0;  ///< rounding error of products, by that of a line
+    std::array<Vector, 3> corners;
+    Vector normal;
+    /// Bounds of the products' rounding errors for a unit direction: by the edges' distance from the centre,
+    /// and for each metre of the ray's origin from there.
+    float rounding_m2 = 0, rounding_m = 0;
     std::uint32_t object = 0, primitive = 0;
 };
 
@@ -33,9 +36,6 @@ class FewTriangles {
   public:
     /// With so many, full packets take as long as with Embree.
     static constexpr std::size_t kMost = 96;
-
-    /// `half_extent_m`: as of RayCaster.
-    explicit FewTriangles(double half_extent_m) : half_extent_m_(static_cast<float>(half_extent_m)) {}
 
     /// With the indices that hits are to have.
     void add(std::uint32_t object, std::uint32_t primitive,
@@ -48,7 +48,6 @@ class FewTriangles {
     void occlude(RayPacket& packet, const LaneMask& lanes) const;
 
   private:
-    float half_extent_m_;
     std::vector<TestedTriangle> triangles_;
 };
 

@@ -117,9 +117,67 @@ TEST(FewTriangles, LoseNoRays) {
     }
 }
 
+/// A wall in the plane x = 0 of a room of `size_m`, in four rectangles around a square opening in its middle;
+/// something large stands far behind.
+Scene wall_with_opening(double size_m, double opening_m) {
+    const double far = size_m / 2, near = opening_m / 2;
+    Scene scene;
+    add_object(scene, Box{{-far, -far, -far}, {far, far, far}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, -far, -far}, {0, far - near, 0}, {0, 0, size_m}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, near, -far}, {0, far - near, 0}, {0, 0, size_m}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, -near, -far}, {0, opening_m, 0}, {0, 0, far - near}}, diffuse(0.5));
+    add_object(scene, Rectangle{{0, -near, near}, {0, opening_m, 0}, {0, 0, far - near}}, diffuse(0.5));
+    return scene;
+}
+
+/// Rays a little inside of an opening's edges pass, those a little outside do not: the opening has its area
+/// to 0.01 %, if each edge lies where it is to 2.5e-5 of the side.
+TEST(FewTriangles, LeaveOpeningsAsTheyAre) {
+    constexpr double hair = 2.5e-5;
+    for (const double size_m : {1.0, 6.0, 10.0}) {
+        for (const double opening_m : {0.001, 0.03, 0.5}) {
+            const Scene scene = wall_with_opening(size_m, opening_m);
+            const RayCaster caster(scene);
+            RandomPairs random(11);
+            for (int round = 0; round < 500; ++round) {
+                RayHitPacket packet;
+                RayPacket segments;
+                for (std::size_t i = 0; i < kPacketWidth; ++i) {
+                    const double edge = (i % 2 == 0 ? 0.5 - hair : 0.5 + hair) * opening_m;
+                    const double across = (i % 4 < 2 ? edge : -edge), along = (random.next() - 0.5) * edge;
+                    const Vec3 at = i % 8 < 4 ? Vec3{0, across, along} : Vec3{0, along, across};
+                    const auto [u, v] = random.next_pair();
+                    const Vec3 origin =
+                        std::min(opening_m, size_m / 4) * Vec3{0.5 + u, v - 0.5, random.next() - 0.5};
+                    packet.ray.set(i, origin, at - origin, kInfinity);
+                    segments.set(i, origin, 1.5 * (at - origin), 1);
+                }
+                caster.closest(packet, lanes_up_to(kPacketWidth), Coherence::scattered);
+                caster.occlude(segments, lanes_up_to(kPacketWidth), Coherence::scattered);
+                for (std::size_t i = 0; i < kPacketWidth; ++i) {
+                    EXPECT_EQ(packet.object[i] == 0, i % 2 == 0) << size_m << ' ' << opening_m << ' ' << i;
+                    EXPECT_EQ(segments.end[i] > 0, i % 2 == 0) << size_m << ' ' << opening_m << ' ' << i;
+                }
+            }
+        }
+    }
+}
+
+/// A triangle a thousand kilometres away, or the size of the scene, changes nothing beside an edge.
+TEST(FewTriangles, MissWhatIsBesideAnEdgeWhereverElseSomethingLies) {
+    FewTriangles triangles;
+    triangles.add(0, 0, {{{1, 0, -1}, {1, 1, -1}, {1, 0, 1}}});
+    triangles.add(1, 0, {{{1e6f, -1e6f, -1e6f}, {1e6f, 1e6f, -1e6f}, {1e6f, 0, 1e6f}}});
+    RayHitPacket packet;
+    for (std::size_t i = 0; i < kPacketWidth; ++i)
+        packet.ray.set(i, {0, i % 2 == 0 ? -1e-7 : 1e-7, 0}, {1, 0, 0}, kInfinity);
+    triangles.closest(packet, lanes_up_to(kPacketWidth));
+    for (std::size_t i = 0; i < kPacketWidth; ++i) EXPECT_EQ(packet.object[i], i % 2 == 0 ? 1 : 0) << i;
+}
+
 /// One triangle across the x-axis at x = 1.
 FewTriangles one_triangle() {
-    FewTriangles triangles(2);
+    FewTriangles triangles;
     triangles.add(3, 5, {{{1, -1, -1}, {1, 2, -1}, {1, -1, 2}}});
     return triangles;
 }
@@ -159,7 +217,7 @@ TEST(FewTriangles, MeetRaysBetweenStartAndEnd) {
 }
 
 TEST(FewTriangles, AreForPacketsThatAreFullEnough) {
-    FewTriangles triangles(2);
+    FewTriangles triangles;
     for (std::uint32_t i = 0; i < FewTriangles::kMost / 2; ++i)
         triangles.add(0, i, {{{1, -1, -1}, {1, 2, -1}, {1, -1, 2}}});
     EXPECT_TRUE(triangles.are_faster(lanes_up_to(8)));
