@@ -72,20 +72,28 @@ struct PacketPlacement {
 // Lifting of points off their surfaces, so that rays from there do not meet these again.
 
 /// Ray queries work in single precision on coordinates relative to a centre: 2^-19 of the largest number
-/// involved is some 30 times the rounding error. Things near the centre are seen from as far as the scene's
-/// edge, where rounding is coarser: see least_size_m().
+/// involved is some 30 times the rounding error. Things near the centre are seen from afar, where rounding is
+/// coarser: see least_size_m().
 class Lift {
   public:
     Lift() = default;
-    /// The rule for a scene around `center`. `half_extent_m`: its largest coordinate relative to that.
-    Lift(const Vec3& center, double half_extent_m) : center_(center), half_extent_m_(half_extent_m) {}
+    /// The rule for a scene around `center`. `half_extent_m`: its largest coordinate relative to that, and
+    /// that of measured points. `nearest_m`: all measured points are at least so far from the centre.
+    Lift(const Vec3& center, double half_extent_m, double nearest_m = 0)
+        : center_(center), half_extent_m_(half_extent_m), nearest_m_(nearest_m) {}
 
     const Vec3& center() const { return center_; }
     double half_extent_m() const { return half_extent_m_; }
     /// Points on smaller things that are nearer to the centre are lifted as if on something of this size: the
     /// rounding error of a shadow ray to them is that of its far end. In scenes of more than 64 m it is that
-    /// of ends up to 32 m away, so that a house on a large ground is as exact as one alone.
-    double least_size_m() const { return std::min(half_extent_m_, kFarthestEnd_m) / 4; }
+    /// of ends up to 32 m away, so that a house on a large ground is as exact as one alone; but where nothing
+    /// is measured within such a distance, things are lifted for those who see them.
+    double least_size_m() const { return std::max(largest_size_m(), nearest_m_) / 4; }
+    /// For points on things of unknown size: near the centre none is larger (geometry/cut.h), and elsewhere
+    /// the distance from there counts.
+    double largest_size_m() const { return std::min(half_extent_m_, kFarthestEnd_m); }
+    /// For points that may be anywhere up to 256 m from the centre: half a millimetre at most.
+    double common_offset_m() const { return kShare * std::min(half_extent_m_, 256.0); }
     /// The distance by which a point near `position` on something of size `size_m` is lifted.
     double offset_m(const Vec3& position, double size_m) const {
         return relative_offset_m(position - center_, size_m);
@@ -95,12 +103,18 @@ class Lift {
         return kShare * std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m,
                                   least_size_m()});
     }
+    /// The same for the end of a ray that starts `distance_m` away: both its origin and its direction are
+    /// rounded by 2^-24 of that.
+    double offset_m(const Vec3& position, double size_m, double distance_m) const {
+        return offset_m(position, std::max(size_m, kShareOfRay * distance_m));
+    }
     static constexpr double kShare = 0x1p-19;
+    static constexpr double kShareOfRay = 0x1p-4;
 
   private:
     static constexpr double kFarthestEnd_m = 32;
     Vec3 center_;
-    double half_extent_m_ = 0;
+    double half_extent_m_ = 0, nearest_m_ = 0;
 };
 
 }  // namespace stilb

@@ -19,6 +19,7 @@ std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaste
     Explained explained(scene, sensors);
     add(unit_warnings(scene));
     add(opening_warnings(scene));
+    add(precision_warnings(caster, sensors));
     add(hole_warnings(scene, enclosures.components()));
     add(overlap_warnings(scene, caster, sensors));
     add(lamp_warnings(scene, caster, enclosures.components(), sensors));

@@ -154,6 +154,12 @@ std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaste
 std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCaster& caster,
                                           std::span<const Sensor> sensors);
 
+// Far away.
+
+/// A sentence for each sensor that lies so far from the others that rays are coarse beside the surfaces
+/// around it (docs/ray-queries.md).
+std::vector<std::string> precision_warnings(const rays::RayCaster& caster, std::span<const Sensor> sensors);
+
 // Objects that no light reaches.
 
 /// The objects that no light reaches, in the order of the scene; emitters are never among them. Light

@@ -124,7 +124,7 @@ std::optional<ComponentId> Enclosures::closed_component(const rays::Hit& hit) co
 std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
     if (const auto origin = lights::point_origin(light)) {
         if (!origin->axis) return {{origin->position, kDirections[0]}};
-        return {probe_ray_off(origin->position, *origin->axis, caster_.half_extent_m(), caster_)};
+        return {probe_ray_off(origin->position, *origin->axis, caster_.lift().largest_size_m(), caster_)};
     }
     const auto surface = lights::emitting_object(light);
     if (!surface) return {};
@@ -133,8 +133,8 @@ std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
     // An opening may reach through the walls around its luminaire.
     if (std::holds_alternative<LuminousOpening>(light.source)) {
         const Luminaire& luminaire = *lights::luminaire_of(light);
-        rays.push_back(
-            probe_ray_off(luminaire.position, rays.front().direction, caster_.half_extent_m(), caster_));
+        rays.push_back(probe_ray_off(luminaire.position, rays.front().direction,
+                                     caster_.lift().largest_size_m(), caster_));
     }
     return rays;
 }

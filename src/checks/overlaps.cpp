@@ -70,7 +70,8 @@ class OverlapLight {
         // Light between two bodies of glass arrives there by refraction.
         if (is_glass(overlap.first) && is_glass(overlap.second)) return true;
         // Twice as far from the plane as a lamp that was put in front of it.
-        const Vec3 off = 4 * caster_.offset_m(overlap.position, caster_.half_extent_m()) * overlap.normal;
+        const Vec3 off =
+            4 * caster_.offset_m(overlap.position, caster_.lift().largest_size_m()) * overlap.normal;
         return is_lit({overlap.position + off, overlap.normal}) ||
                (!is_lamp_on(overlap) && is_lit({overlap.position - off, -overlap.normal}));
     }

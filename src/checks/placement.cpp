@@ -202,7 +202,7 @@ class PlacementCheck {
         const ProbeRay front = enclosures_.probe_rays_of(light).front();
         // Behind the surface, even if the lamp was put in front of it (scene/overlaps.h).
         constexpr double offsets = 6;
-        const double depth_m = offsets * caster_.offset_m(front.position, caster_.half_extent_m());
+        const double depth_m = offsets * caster_.offset_m(front.position, caster_.lift().largest_size_m());
         const Enclosure behind =
             enclosures_.enclosure_of({front.position - depth_m * front.direction, -front.direction});
         if (!contains(of_sensors_, behind)) return false;

@@ -87,7 +87,7 @@ bool is_seen(const Object& object, const std::vector<Location>& lit, const rays:
         math::SampleStream stream(math::RandomKey{}.derived(kConnecting), i);
         const Location location =
             std::visit([&](const auto& s) { return location_on(s, stream); }, object.shape);
-        const double offset = caster.offset_m(location.position, caster.half_extent_m());
+        const double offset = caster.offset_m(location.position, caster.lift().largest_size_m());
         for (const Vec3& normal : {location.normal, -location.normal}) {
             const Location lifted{location.position + offset * normal, normal};
             for (std::size_t j = i % stride; j < lit.size(); j += stride) {

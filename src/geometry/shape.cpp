@@ -90,6 +90,9 @@ const Mesh* stored_mesh(const Shape& shape) {
 
 std::array<Vec3, 3> corners_of(const Shape& shape, std::size_t triangle) {
     if (const auto* instance = std::get_if<Instance>(&shape)) return instance->corners_of(triangle);
+    if (const auto* rectangle = std::get_if<Rectangle>(&shape))
+        return triangulated(*rectangle).corners_of(triangle);
+    if (const auto* box = std::get_if<Box>(&shape)) return triangulated(*box).corners_of(triangle);
     return std::get<Mesh>(shape).corners_of(triangle);
 }
 

@@ -52,7 +52,7 @@ auto EmitterSurface::sample_by_area(const std::array<double, 2>& u) const -> Poi
     const auto choice = by_area_.choose(u[0]);
     const EmitterElement& element = elements_[choice.index];
     const auto [position, normal, weight] = lights::sample_by_area(element, {choice.remainder, u[1]});
-    return {lifted(element, position, normal), normal, weight};
+    return {lifted(element, position, normal, 0), normal, weight};
 }
 
 auto EmitterSurface::sample_projected(const Vec3& leaving, const std::array<double, 2>& u) const -> Point {
@@ -69,7 +69,7 @@ auto EmitterSurface::sample_projected(const Vec3& leaving, const std::array<doub
     const auto* sphere = std::get_if<Sphere>(&chosen->shape);
     const auto [position, normal, weight] = sphere ? sample_disk_of(*sphere, leaving, {share, u[1]})
                                                    : lights::sample_by_area(*chosen, {share, u[1]});
-    return {lifted(*chosen, position, normal), normal, weight};
+    return {lifted(*chosen, position, normal, 0), normal, weight};
 }
 
 math::DiscreteChoice EmitterSurface::choose(const Vec3& from, double u) const {
@@ -99,7 +99,8 @@ auto EmitterSurface::sample_seen(const Vec3& from, const std::array<double, 2>& 
     const Vec3 direction = normalized(position - from);
     // Not >=: where `from` is the sampled point itself, there is no direction to compare.
     if (!(dot(normal, direction) < 0)) return std::nullopt;
-    return SeenPoint{lifted(element, position, normal), direction, pdf_per_sr * choice.probability,
+    return SeenPoint{lifted(element, position, normal, length(position - from)), direction,
+                     pdf_per_sr * choice.probability,
                      choice.probability * lights::rough_pdf_per_sr(element, position, normal, from)};
 }
 

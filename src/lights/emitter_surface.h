@@ -53,8 +53,10 @@ class EmitterSurface {
     bool chooses_facing() const { return elements_.size() > 1 && elements_.size() <= kFew; }
     math::DiscreteChoice choose(const Vec3& from, double u) const;
     double probability(std::size_t element, const Vec3& from) const;
-    Vec3 lifted(const EmitterElement& element, const Vec3& position, const Vec3& normal) const {
-        return position + lift_.offset_m(position, element.size_m) * normal;
+    /// `distance_m`: of the other end of a ray; 0 where a ray starts there.
+    Vec3 lifted(const EmitterElement& element, const Vec3& position, const Vec3& normal,
+                double distance_m) const {
+        return position + lift_.offset_m(position, element.size_m, distance_m) * normal;
     }
 
     Lift lift_;

@@ -20,7 +20,7 @@ std::vector<LightDetail> Luminaire::details(const Surroundings& surroundings) co
 LuminaireEmitter::LuminaireEmitter(const Luminaire& light, const Surroundings& surroundings, const Lift& lift)
     : light_(light),
       solid_(&surroundings.solid(light.solid)),
-      lifted_(light.position + lift.offset_m(light.position, lift.half_extent_m()) * light.nadir) {}
+      lifted_(light.position + lift.offset_m(light.position, lift.largest_size_m()) * light.nadir) {}
 
 Emission LuminaireEmitter::emit(math::SampleStream& stream) const {
     const auto [u1, u2] = stream.next_two();

@@ -36,17 +36,16 @@ void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
 }
 
-/// Ray queries are in single precision: farther away than this, half of the Earth's girth, points are more
-/// than a metre apart, and products of coordinates overflow soon.
-constexpr double kFarthest_m = 2e7;
+/// As readers of files have it: products of four lengths are far from overflow in single precision.
+constexpr double kFarthest_m = 1e9;
 
 void require_within_reach(const Scene& scene) {
     const auto require = [](std::string_view kind, const std::string& name, const Vec3& at) {
         const double farthest_m = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
         if (farthest_m <= kFarthest_m) return;
         throw InputError(fmt::format(
-            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 2e7 m are possible. Details smaller than two "
-            "millionths of a scene's extent are lost. Check the units: Stilb expects metres.",
+            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 1e9 m are possible. Check the units: Stilb "
+            "expects metres.",
             kind, name, farthest_m));
     };
     for (const Object& object : scene.objects) {
@@ -133,7 +132,8 @@ struct RayCaster::Implementation {
     std::vector<MetObject> met_objects;
     std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
 
-    Implementation(const Scene& s, const Monitor& monitor) : scene(s), lift_rule(scene::lift_of(s)) {
+    Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> measured)
+        : scene(s), lift_rule(scene::lift_of(s, measured)) {
         require_within_reach(s);
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
@@ -361,8 +361,8 @@ struct RayCaster::Implementation {
     }
 };
 
-RayCaster::RayCaster(const Scene& scene, const Monitor& monitor)
-    : implementation_(std::make_unique<Implementation>(scene, monitor)) {}
+RayCaster::RayCaster(const Scene& scene, const Monitor& monitor, std::span<const Vec3> measured)
+    : implementation_(std::make_unique<Implementation>(scene, monitor, measured)) {}
 RayCaster::~RayCaster() = default;
 
 const Vec3& RayCaster::center() const { return implementation_->center; }
@@ -468,6 +468,8 @@ std::optional<TracedMesh> RayCaster::traced_mesh(ObjectId object) const {
                       {geometry.triangles, geometry.triangle_count},
                       geometry.parents};
 }
+
+const Scene& RayCaster::scene() const { return implementation_->scene; }
 
 bool RayCaster::has_panes() const { return implementation_->has_panes; }
 

@@ -1,7 +1,7 @@
 // Ray queries: closest hit, occlusion, and packets of both. Only this implementation, and that of
 // patches/visibility/patch_caster.h, includes Embree.
 //
-// Offsets. Embree works in single precision on coordinates relative to the scene's centre. Rays start from,
+// Offsets. Embree works in single precision on coordinates relative to a centre. Rays start from,
 // and connections end at, points that are lifted off their surface along its geometric normal by offset_m() =
 // 2^-19 of the largest number involved (distance from the centre, size of the triangle): some 30 times the
 // rounding error, 8 micrometres in a room of 8 m, and the same in proportion at any size. Before they are
@@ -74,10 +74,12 @@ enum class Coherence { coherent, scattered };
 /// Immutable after construction; all queries may run in parallel. Keeps a reference to the scene.
 class RayCaster {
   public:
-    /// Builds the acceleration structure; the monitor takes the share that is built. Throws InputError where
-    /// an object or a light is farther than 20,000 km from the origin, std::runtime_error where Embree fails
-    /// (out of memory).
-    explicit RayCaster(const Scene& scene, const Monitor& monitor = Monitor::none());
+    /// Builds the acceleration structure; the monitor takes the share that is built. `measured`: points at
+    /// which light is measured, if they are known: rays are most exact near to them (scene::lift_of). Throws
+    /// InputError where an object or a light is farther than 1e9 m from the origin, std::runtime_error
+    /// where Embree fails (out of memory).
+    explicit RayCaster(const Scene& scene, const Monitor& monitor = Monitor::none(),
+                       std::span<const Vec3> measured = {});
     ~RayCaster();
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;
@@ -95,6 +97,7 @@ class RayCaster {
     /// The whole hit of a lane that has met something.
     Hit hit(const RayHitPacket& packet, std::size_t lane) const;
 
+    const Scene& scene() const;
     /// Whether segments may pass through surfaces (transmittance()).
     bool has_panes() const;
     /// True where a surface lies between two (lifted) points.
@@ -122,7 +125,7 @@ class RayCaster {
 
     /// The origin of packet coordinates: where single precision is best (scene::lift_of).
     const Vec3& center() const;
-    /// The largest coordinate relative to the centre [m]; of lights and surfaces, not of sensors.
+    /// The largest coordinate relative to the centre [m]; of surfaces, lights and measured points.
     double half_extent_m() const;
     /// The rule for lifting points off surfaces.
     Lift lift() const;

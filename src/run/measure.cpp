@@ -258,7 +258,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     const RunOptions options = with_reading_target(asked_options, given_sensors);
     require_measurable(given_sensors, method);
 
-    Session session(scene, asked_options, options, progress, interrupt);
+    Session session(scene, given_sensors, asked_options, options, progress, interrupt);
     require_surfaces(given_sensors, session.caster());
     const std::vector<Sensor> sensors =
         with_units(checks::without_hidden_points(scene, session.caster(), given_sensors));

@@ -107,7 +107,7 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
                        const RunOptions& asked, const RunOptions& options, PictureSink* sink,
                        const std::atomic<bool>* interrupt) {
     const Camera& camera = *sensor.camera();
-    Session session(scene, asked, options, sink, interrupt);
+    Session session(scene, {&sensor, 1}, asked, options, sink, interrupt);
     std::vector<std::string> of_scene = session.scene_warnings({&sensor, 1});
     const std::vector<bool> blind = sensors::blind_pixels(camera);
     RenderResult result;

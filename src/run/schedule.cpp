@@ -121,14 +121,14 @@ void require_mostly_finite(std::uint64_t invalid, double all) {
         "{} of {} samples are not finite: this is a defect of Stilb, please report the scene", invalid, all));
 }
 
-Session::Session(const Scene& scene, const RunOptions& asked, const RunOptions& options, ProgressSink* sink,
-                 const std::atomic<bool>* interrupt)
+Session::Session(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked,
+                 const RunOptions& options, ProgressSink* sink, const std::atomic<bool>* interrupt)
     : scene_(scene),
       options_(options),
       sink_(sink),
       interrupt_(interrupt),
       monitor_(interrupt, deadline_of(asked), report_to(sink, clock_)),
-      caster_(scene, monitor_),
+      caster_(scene, monitor_, sensors::measured_points(sensors)),
       pool_(options.threads) {}
 
 std::vector<std::string> Session::scene_warnings(std::span<const Sensor> sensors) const {

@@ -103,9 +103,10 @@ void require_mostly_finite(std::uint64_t invalid, double all);
 /// One run from its beginning. The user's time limit includes the set-up; a default one does not.
 class Session {
   public:
-    /// `asked` are the user's options, `options` those with defaults.
-    Session(const Scene& scene, const RunOptions& asked, const RunOptions& options, ProgressSink* sink,
-            const std::atomic<bool>* interrupt);
+    /// `sensors`: those that are measured, or none. `asked` are the user's options, `options` those with
+    /// defaults.
+    Session(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked,
+            const RunOptions& options, ProgressSink* sink, const std::atomic<bool>* interrupt);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 

@@ -204,7 +204,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     require_storable(scene, asked_options, degree);
     RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
-    Session session(scene, asked_options, options, progress, interrupt);
+    Session session(scene, {}, asked_options, options, progress, interrupt);
     std::vector<std::string> of_scene = session.scene_warnings({});
     if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;

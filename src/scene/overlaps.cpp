@@ -33,9 +33,11 @@ constexpr std::size_t kFew = 16;
 constexpr double kLongestShare = 0.3;
 constexpr int kDeepest = 48;
 
-double offset_m(const Scene& scene) {
-    const Lift lift = lift_of(scene);
-    return lift.offset_m(lift.center(), lift.half_extent_m());
+/// The offset of lifted points at a place where lamps may lie in front of a surface. Half a millimetre is
+/// more than rounding for kilometres, and far things change no more where the centre of ray queries is
+/// elsewhere.
+double offset_m(const Lift& lift, const Vec3& place) {
+    return std::min(lift.offset_m(place, lift.largest_size_m()), lift.common_offset_m());
 }
 
 }  // namespace
@@ -119,7 +121,7 @@ struct SharedPlace {
     double gap_m = 0;
 };
 
-std::optional<SharedPlace> shared_place(const Corners& first, const Corners& second, double largest_gap_m) {
+std::optional<SharedPlace> shared_place(const Corners& first, const Corners& second, const Lift& lift) {
     const Vec3 normal = normal_of(first), other_normal = normal_of(second);
     const double cosine = dot(normal, other_normal) / (length(normal) * length(other_normal));
     if (!(std::abs(cosine) > kLeastCosine)) return std::nullopt;
@@ -127,33 +129,45 @@ std::optional<SharedPlace> shared_place(const Corners& first, const Corners& sec
     const std::size_t w = dominant_axis(normal), u = (w + 1) % 3, v = (w + 2) % 3;
     const Polygon2 shared = shared_part(projected(first, w), projected(second, w));
     if (shared.empty()) return std::nullopt;
-    const Vec3 along = std::copysign(1, cosine) * normalized(other_normal);
-    place.gap_m = largest_gap_m;
     const Vec3& n = place.normal;
+    std::vector<Vec3> points;
     for (const Point2& at : shared) {
         std::array<double, 3> p{};
         p[u] = at.u, p[v] = at.v;
         p[w] = first[0][w] - (n[u] * (at.u - first[0][u]) + n[v] * (at.v - first[0][v])) / n[w];
-        const Vec3 point{p[0], p[1], p[2]};
+        points.push_back({p[0], p[1], p[2]});
+        place.middle += points.back() / static_cast<double>(shared.size());
+    }
+    const Vec3 along = std::copysign(1, cosine) * normalized(other_normal);
+    const double largest_gap_m = kLargestGap * offset_m(lift, place.middle);
+    place.gap_m = largest_gap_m;
+    for (const Vec3& point : points) {
         const double gap_m = dot(along, point - second[0]);
         if (std::abs(gap_m) > largest_gap_m) return std::nullopt;
         place.gap_m = std::min(place.gap_m, gap_m);
-        place.middle += point / static_cast<double>(shared.size());
     }
     return place;
+}
+
+/// Half the largest gap, along each axis.
+Vec3 margin_of(const Lift& lift) {
+    const double margin_m = kLargestGap * lift.common_offset_m() / 2;
+    return {margin_m, margin_m, margin_m};
 }
 
 /// The triangles of the scene, and the division of space that finds those that overlap.
 class OverlapSearch {
   public:
     OverlapSearch(const Scene& scene, OverlapsOf of, std::size_t most)
-        : of_(of), most_(most), largest_gap_m_(kLargestGap * offset_m(scene)), shapes_(scene.objects.size()) {
+        : of_(of),
+          most_(most),
+          lift_(lift_of(scene)),
+          margin_(margin_of(lift_)),
+          shapes_(scene.objects.size()) {
         std::vector<bool> is_lamp(scene.objects.size());
         for (const Light& light : scene.lights) {
             if (const auto surface = lights::emitting_object(light)) is_lamp[index_of(*surface)] = true;
         }
-        const double margin_m = largest_gap_m_ / 2;
-        margin_ = {margin_m, margin_m, margin_m};
         if (of == OverlapsOf::lamps) {
             wanted_ = {};
             for (std::size_t i = 0; i < is_lamp.size(); ++i) {
@@ -167,11 +181,11 @@ class OverlapSearch {
     }
 
     /// All triangles of a mesh.
-    OverlapSearch(const Mesh& mesh, double largest_gap_m)
+    OverlapSearch(const Mesh& mesh, const Lift& lift)
         : of_(OverlapsOf::all_surfaces),
           most_(std::numeric_limits<std::size_t>::max()),
-          largest_gap_m_(largest_gap_m),
-          margin_{largest_gap_m / 2, largest_gap_m / 2, largest_gap_m / 2},
+          lift_(lift),
+          margin_(margin_of(lift)),
           shapes_(1) {
         shapes_[0].mesh = &mesh;
         for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) pieces_.push_back({ObjectId{0}, t, t});
@@ -343,7 +357,7 @@ class OverlapSearch {
     }
 
     void add_overlap(const Piece& first, const Piece& second) {
-        const auto place = shared_place(corners_of(first), corners_of(second), largest_gap_m_);
+        const auto place = shared_place(corners_of(first), corners_of(second), lift_);
         if (!place) return;
         overlaps_.push_back({first.object, second.object, first.triangle, second.triangle, place->middle,
                              place->normal, place->gap_m});
@@ -363,7 +377,7 @@ class OverlapSearch {
 
     OverlapsOf of_;
     std::size_t most_;
-    double largest_gap_m_;
+    Lift lift_;
     Vec3 margin_;  ///< half the largest gap
     /// Triangles elsewhere are left out: where lamps are wanted, the bounds of all lamps.
     Bounds wanted_{{-Bounds::kInfinity, -Bounds::kInfinity, -Bounds::kInfinity},
@@ -429,9 +443,9 @@ std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_
     return OverlapSearch(scene, of, most).run();
 }
 
-std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, double largest_gap_m) {
+std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, const Lift& lift) {
     std::vector<std::array<std::uint32_t, 2>> pairs;
-    for (const Overlap& overlap : OverlapSearch(mesh, largest_gap_m).run())
+    for (const Overlap& overlap : OverlapSearch(mesh, lift).run())
         pairs.push_back({overlap.triangle, overlap.second_triangle});
     return pairs;
 }
@@ -439,9 +453,10 @@ std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, double
 void put_lamps_in_front(Scene& scene) {
     for (const ObjectId lamp : lamps_of(scene)) make_own_mesh(scene.objects[index_of(lamp)]);
     constexpr std::size_t most = 10'000'000;
-    const double wanted_m = kLampGap * offset_m(scene);
+    const Lift lift = lift_of(scene);
     std::map<ObjectId, std::vector<Push>> pushes;
     for (const Overlap& overlap : find_overlaps(scene, OverlapsOf::lamps, most)) {
+        const double wanted_m = kLampGap * offset_m(lift, overlap.position);
         if (overlap.gap_m >= wanted_m) continue;
         pushes[overlap.first].push_back({overlap.triangle, overlap.normal, wanted_m - overlap.gap_m});
     }

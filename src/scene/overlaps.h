@@ -21,15 +21,14 @@ struct Overlap {
 
 enum class OverlapsOf { all_surfaces, lamps };
 
-/// Pairs of triangles closer than rays can tell apart (2^-18 of half the scene's extent) that share more
+/// Pairs of triangles closer than rays can tell apart (2.25 offsets of lifted points there) that share more
 /// than a thousandth of the smaller one. Ends after `most`. Disks count as polygons; other curved shapes are
 /// left out, as are instances. `lamps`: only pairs of a lamp and another surface that is no lamp, with
 /// instances.
 std::vector<Overlap> find_overlaps(const Scene& scene, OverlapsOf of, std::size_t most);
 
-/// Pairs of triangles of a mesh, by their numbers, that share more than a thousandth of the smaller one in
-/// one plane and are no farther apart there than `largest_gap_m`.
-std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, double largest_gap_m);
+/// The same of all triangles of a mesh, by their numbers.
+std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, const Lift& lift);
 
 /// The triangles of flat shapes other than meshes; of a disk those of a polygon. Curved shapes have none.
 Mesh flat_mesh(const Shape& shape);

@@ -5,34 +5,6 @@
 #include <cstddef>
 
 namespace stilb::scene {
-namespace {
-
-/// Scenes up to this half extent lift points by 61 micrometres at most, wherever their centre is.
-constexpr double kLargeHalfExtent_m = 32;
-
-/// Coordinate by coordinate, of all objects and point lights.
-Vec3 median_of_middles(const Scene& scene) {
-    std::array<std::vector<double>, 3> coordinates;
-    const auto add = [&](const Vec3& middle) {
-        coordinates[0].push_back(middle.x), coordinates[1].push_back(middle.y),
-            coordinates[2].push_back(middle.z);
-    };
-    for (const Object& object : scene.objects) {
-        const Bounds bounds = geometry::bounds_of(object.shape);
-        if (!bounds.is_empty()) add(bounds.middle());
-    }
-    for (const Light& light : scene.lights) {
-        if (const auto origin = lights::point_origin(light)) add(origin->position);
-    }
-    const auto median = [](std::vector<double>& values) {
-        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-        std::ranges::nth_element(values, middle);
-        return *middle;
-    };
-    return {median(coordinates[0]), median(coordinates[1]), median(coordinates[2])};
-}
-
-}  // namespace
 
 Bounds LightSurroundings::bounds() const { return bounds_of(scene_); }
 
@@ -47,14 +19,6 @@ Bounds bounds_of(const Scene& scene) {
         if (const auto origin = lights::point_origin(light)) all.include(origin->position);
     }
     return all.is_empty() ? Bounds{{}, {}} : all;
-}
-
-Lift lift_of(const Scene& scene) {
-    const Bounds bounds = bounds_of(scene);
-    if (bounds.half_extent() <= kLargeHalfExtent_m) return {bounds.middle(), bounds.half_extent()};
-    const Vec3 center = median_of_middles(scene);
-    const Vec3 above = bounds.max - center, below = center - bounds.min;
-    return {center, std::max({above.x, above.y, above.z, below.x, below.y, below.z})};
 }
 
 std::set<ObjectId> lamps_of(const Scene& scene) {

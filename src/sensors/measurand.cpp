@@ -1,6 +1,8 @@
 #include "sensors/measurand.h"
 
+#include "geometry/shape.h"
 #include "rays/ray_caster.h"
+#include "scene/scene.h"
 
 namespace stilb::sensors {
 namespace {
@@ -42,17 +44,38 @@ bool is_luminance(const Measurand& measurand) { return std::visit(IsLuminance{},
 MeasuringPoint viewpoint_of(const Measurand& measurand) { return std::visit(ViewpointOf{}, measurand); }
 Location location_of(const Measurand& measurand) { return std::visit(LocationOf{}, measurand); }
 
-std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
+namespace {
+
+std::optional<rays::Hit> close_surface(const MeasuringPoint& point, const rays::RayCaster& caster) {
     // Three offsets in front, because a lamp in the plane of a ceiling stands two in front of it
     // (scene/overlaps.h); and one behind.
-    const double most = caster.offset_m(point.position, caster.half_extent_m());
+    const double most = caster.offset_m(point.position, caster.lift().largest_size_m());
     const auto below = caster.closest(point.position + 3 * most * point.normal, -point.normal);
     return below && below->distance_m < 4 * most ? below : std::nullopt;
 }
 
+/// Whether the point lies in front of the lamp on which it seems to lie, and faces it. In double precision:
+/// lamps are measured from nearer than rays can tell.
+bool faces_lamp(const MeasuringPoint& point, const rays::Hit& close, const rays::RayCaster& caster) {
+    if (close.on_front) return false;
+    const Shape& shape = caster.scene().object(close.object).shape;
+    const bool is_flat = caster.traced_mesh(close.object).has_value();
+    const Vec3 on_surface = is_flat ? geometry::corners_of(shape, close.triangle)[0] : close.position;
+    return dot(close.normal, point.position - on_surface) < 0 &&
+           scene::lamps_of(caster.scene()).contains(close.object);
+}
+
+}  // namespace
+
+std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster) {
+    const auto close = close_surface(point, caster);
+    return close && !faces_lamp(point, *close, caster) ? close : std::nullopt;
+}
+
 Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
-    if (const auto surface = surface_at(point, caster)) return surface->lifted;
-    return point.position + caster.offset_m(point.position, 0) * point.normal;
+    if (const auto close = close_surface(point, caster))
+        return faces_lamp(point, *close, caster) ? close->lifted_behind() : close->lifted;
+    return point.position;
 }
 
 std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster) {

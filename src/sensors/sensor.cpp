@@ -122,6 +122,18 @@ double task_area_m2(std::span<const Sensor> sensors) {
     return all_m2;
 }
 
+std::vector<Vec3> measured_points(std::span<const Sensor> sensors) {
+    constexpr std::size_t most = 8;
+    std::vector<Vec3> points;
+    for (const Sensor& sensor : sensors) {
+        if (const Camera* camera = sensor.camera()) points.push_back(camera->position);
+        const std::size_t size = sensor.size(), count = std::min(size, most);
+        for (std::size_t i = 0; i < count; ++i)
+            points.push_back(position_of(sensor.measurand(count == 1 ? 0 : i * (size - 1) / (count - 1))));
+    }
+    return points;
+}
+
 bool has_requirements(std::span<const Sensor> sensors) {
     return !std::ranges::all_of(sensors, [](const Sensor& sensor) { return sensor.requirements.empty(); });
 }

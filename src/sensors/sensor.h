@@ -90,6 +90,10 @@ double task_area_m2(std::span<const Sensor> sensors);
 
 bool has_requirements(std::span<const Sensor> sensors);
 
+/// Some of the points at which sensors measure, and cameras stand: of each the first, the last and some in
+/// between.
+std::vector<Vec3> measured_points(std::span<const Sensor> sensors);
+
 // Choosing by name; `file` is where the sensors come from, for messages. All throw InputError.
 
 /// The camera of that name; where the name is empty, the only one.

@@ -157,8 +157,10 @@ STILB_VECTORIZED void LaneLights::sample_chosen(const Chosen& __restrict chosen,
         const float density = chosen.probability[i] * (is_point ? squared : pdf_per_sr);
         const float inverse_density = 1 / density;
         const float inverse = density > 0 ? inverse_density : 0;
-        // As Lift::relative_offset_m.
-        const float size = std::max(std::max(rectangle.width, rectangle.depth), least_size_m);
+        // As Lift::offset_m.
+        const float of_ray = static_cast<float>(Lift::kShareOfRay) * distance;
+        const float size =
+            std::max(std::max(rectangle.width, rectangle.depth), std::max(least_size_m, of_ray));
         const float farthest = std::max(std::max(std::abs(point.x), std::abs(point.y)), std::abs(point.z));
         const float lift_m = is_point ? 0 : static_cast<float>(Lift::kShare) * std::max(farthest, size);
         light.source.x[i] = point.x + lift_m * rectangle.normal.x;

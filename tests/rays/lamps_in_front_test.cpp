@@ -101,6 +101,24 @@ TEST(LampsInFront, LampsElsewhereStayWhereTheyAre) {
     }
 }
 
+/// A lamp a millimetre below a ceiling stays there, and one in its plane moves by two offsets of the room, on
+/// any ground.
+TEST(LampsInFront, AsFarOnAGroundOfAThousandKilometres) {
+    for (const double side_m : {50.0, 1e3, 1e6}) {
+        for (const double below_m : {0.0, 1e-3}) {
+            Scene scene;
+            add_object(scene, kRoom, diffuse(0.6));
+            add_object(scene, Rectangle{{-side_m / 2, -side_m / 2, -0.2}, {side_m, 0, 0}, {0, side_m, 0}},
+                       diffuse(0.5));
+            add_area_light(scene, panel_at(2.8 - below_m), Rgb::grey(1000));
+            put_lamps_in_front(scene);
+            const double z = std::get<Rectangle>(scene.objects[2].shape).corner.z;
+            EXPECT_LE(z, below_m == 0 ? 2.8 - 2e-5 : 2.8 - below_m) << side_m;
+            EXPECT_GE(z, below_m == 0 ? 2.8 - 1.3e-4 : 2.8 - below_m) << side_m;
+        }
+    }
+}
+
 TEST(LampsInFront, TheSecondTimeNothingMoves) {
     Scene scene = room_with_lamp(kRoom, panel_at(2.8));
     const Vec3 once = std::get<Rectangle>(scene.objects[1].shape).corner;

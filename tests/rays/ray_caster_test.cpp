@@ -370,8 +370,11 @@ TEST(RayCaster, RefusesWhatIsTooFarForSinglePrecision) {
         return "";
     };
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {1, 1, 9e6}}, diffuse(0.5));
+    add_object(scene, Box{{0, 0, 0}, {1, 1, 1e9}}, diffuse(0.5));
     EXPECT_EQ(message_of(scene), "");
+    add_object(scene, Box{{0, 0, 0}, {1, 1, 1.0001e9}}, diffuse(0.5));
+    EXPECT_NE(message_of(scene).find("object \"1\" reaches a coordinate of 1e+09 m"), std::string::npos);
+    scene.objects.pop_back();
     add_object(scene, Sphere{{0, 0, 0}, 2e9}, diffuse(0.5));
     EXPECT_NE(message_of(scene).find("object \"1\" reaches a coordinate of 2e+09 m"), std::string::npos);
     scene.objects.pop_back();

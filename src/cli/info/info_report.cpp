@@ -213,7 +213,7 @@ Json list_json(const List& list, const Describe& describe) {
 
 InfoReport report_scene(const io::SceneFile& file, const std::string& name, const Monitor& monitor) {
     const Scene& scene = file.scene;
-    const rays::RayCaster caster(scene, monitor);
+    const rays::RayCaster caster(scene, monitor, sensors::measured_points(file.sensors));
     monitor.report(kChecking, 0);
     const checks::Enclosures enclosures(scene, caster);
     double total_flux_lm = 0;

@@ -35,8 +35,9 @@ std::optional<LampSample> UniformLamp::sample(const lights::LitPoint& at, math::
         const auto sample = lights::sample_projected(element, at, stream);
         if (!sample) return std::nullopt;
         const auto& [position, normal, weight] = sample->point;
-        return LampSample{position + lift_.offset_m(position, element.size_m) * normal,
-                          sample->projected_solid_angle_sr * luminance_cd_m2_};
+        return LampSample{
+            position + lift_.offset_m(position, element.size_m, length(position - at.position)) * normal,
+            sample->projected_solid_angle_sr * luminance_cd_m2_};
     };
     if (elements_.size() == 1) return sample_of(elements_[0]);
     const double u = stream.next();

@@ -56,7 +56,7 @@ Polygon part_above(std::span<const Vec3> polygon, const Vec3& up, double lowest)
 
 CertainSides::CertainSides(const Scene& scene, const LightGuess& guess, const rays::RayCaster& caster)
     : guess_(guess),
-      lift_m_(caster.offset_m(caster.center(), caster.half_extent_m())),
+      lift_m_(caster.lift().common_offset_m()),
       shafts_(scene, caster.center()),
       sides_(guess.lit_sides()) {
     const auto end = static_cast<std::uint32_t>(sides_.size());

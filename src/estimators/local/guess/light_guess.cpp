@@ -64,7 +64,7 @@ SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& cas
                      const math::Barycentric& at) {
     const Vec3 position = patches.position(patches.patch_of(side), at);
     const Vec3 normal = patches.normal_of(side);
-    return {position, position + caster.offset_m(position, caster.half_extent_m()) * normal, normal};
+    return {position, position + caster.offset_m(position, caster.lift().largest_size_m()) * normal, normal};
 }
 
 double LightGuess::patch_count(const Scene& scene) {

@@ -38,7 +38,8 @@ SharedPlaces::SharedPlaces(const Scene& scene, const rays::RayCaster& caster, co
     : caster_(caster), patches_(patches) {
     const auto count = static_cast<std::uint32_t>(patches.count());
     Mesh all;
-    for (const patches::Float3& vertex : patches.vertices) all.vertices.emplace_back(Vec3(vertex));
+    for (const patches::Float3& vertex : patches.vertices)
+        all.vertices.push_back(Vec3(vertex) + patches.center);
     all.triangles = patches.corners;
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
@@ -49,15 +50,11 @@ SharedPlaces::SharedPlaces(const Scene& scene, const rays::RayCaster& caster, co
         for (std::size_t t = 0; t < flat.triangles.size(); ++t) {
             if (!is_traced(ObjectId{i}, object.materials[object.materials.size() == 1 ? 0 : t])) continue;
             const auto& [a, b, c] = flat.triangles[t];
-            const Vec3& center = patches.center;
-            append_triangle({flat.vertices[a] - center, flat.vertices[b] - center, flat.vertices[c] - center},
-                            all);
+            append_triangle({flat.vertices[a], flat.vertices[b], flat.vertices[c]}, all);
         }
     }
-    // Of surfaces that are farther apart, the lifted points of one lie behind the other.
-    const double most_m = caster.offset_m(caster.center(), caster.half_extent_m());
     std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-    for (const auto& [first, second] : scene::find_overlaps(all, most_m)) {
+    for (const auto& [first, second] : scene::find_overlaps(all, caster.lift())) {
         if (first < count) pairs.emplace_back(first, second);
         if (second < count) pairs.emplace_back(second, first);
     }
@@ -72,9 +69,16 @@ SharedPlaces::SharedPlaces(const Scene& scene, const rays::RayCaster& caster, co
             continue;
         }
         has_traced_ = true;
-        for (std::size_t c = 0; c < 3; ++c) cover.corners[c] = all.vertices[all.triangles[other][c]];
+        for (std::size_t c = 0; c < 3; ++c)
+            cover.corners[c] = all.vertices[all.triangles[other][c]] - patches.center;
     }
     for (std::size_t p = 0; p < count; ++p) first_cover_[p + 1] += first_cover_[p];
+}
+
+/// Of surfaces that are farther apart, the lifted points of one lie behind the other.
+double SharedPlaces::largest_gap_m(const Vec3& position) const {
+    const Lift lift = caster_.lift();
+    return lift.offset_m(position, lift.largest_size_m());
 }
 
 void SharedPlaces::set_lit(const std::vector<std::uint32_t>& lit_sides) {
@@ -92,7 +96,7 @@ auto SharedPlaces::owner_of(std::uint32_t side, const math::Barycentric& at) con
     const std::uint32_t patch = patches_.patch_of(side);
     const Vec3 normal = patches_.normal_of(side);
     const Vec3 position = patches_.position(patch, at);
-    const double most_m = caster_.offset_m(position, caster_.half_extent_m());
+    const double most_m = largest_gap_m(position);
     Place owner{side, at};
     for (std::uint32_t i = first_cover_[patch]; i < first_cover_[patch + 1]; ++i) {
         const Cover& cover = covers_[i];
@@ -109,7 +113,7 @@ auto SharedPlaces::owner_of(std::uint32_t side, const math::Barycentric& at) con
 
 bool SharedPlaces::is_traced_at(const Vec3& position) const {
     if (!has_traced_) return false;
-    const double most_m = caster_.offset_m(position, caster_.half_extent_m());
+    const double most_m = largest_gap_m(position);
     return std::ranges::any_of(covers_, [&](const Cover& cover) {
         return cover.patch == patches::kNoSide &&
                place_in(cover.corners, position - patches_.center, most_m).has_value();

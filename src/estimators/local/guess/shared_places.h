@@ -52,6 +52,8 @@ class SharedPlaces {
         std::array<Vec3, 3> corners;             ///< relative to the patches' centre
     };
 
+    /// Between surfaces that share a place.
+    double largest_gap_m(const Vec3& position) const;
     std::array<Vec3, 3> corners_of(std::uint32_t patch) const;
     bool is_lit(std::uint32_t side) const { return !is_lit_.empty() && is_lit_[side] != 0; }
 

@@ -37,7 +37,7 @@ Vec3 lifted_off(const Scene& scene, const patches::Patches& patches, const rays:
         start = harmonics->point_towards(direction);
         normal = patches.is_front(side) ? outwards : -outwards;
     }
-    return start + caster.offset_m(start, caster.half_extent_m()) * normal;
+    return start + caster.offset_m(start, caster.lift().largest_size_m()) * normal;
 }
 
 void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, const Vec3& position,

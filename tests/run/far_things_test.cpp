@@ -1,0 +1,166 @@
+// Readings do not depend on what lies elsewhere, nor on where a scene lies: far objects that nothing sees,
+// map coordinates, sensors far from a lamp and closer to it than rays can tell.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "exact/configuration_factors.h"
+#include "run/run.h"
+#include "scene/overlaps.h"
+#include "support/scene_builder.h"
+
+namespace stilb::run {
+namespace {
+
+const Vec3 kUp{0, 0, 1};
+
+/// A room with a table and a panel a centimetre below its ceiling, in one mesh or in several shapes.
+Scene furnished_room(const Vec3& at) {
+    Scene scene;
+    add_object(scene, Box{at, at + Vec3{4, 3, 2.5}}, diffuse(0.5));
+    add_object(scene, Box{at + Vec3{1, 1, 0.72}, at + Vec3{2.6, 1.8, 0.75}}, diffuse(0.5));
+    add_area_light(scene, Rectangle{at + Vec3{1.7, 1.2, 2.49}, {0, 0.6, 0}, {0.6, 0, 0}}, Rgb::grey(3000));
+    return scene;
+}
+
+std::vector<Sensor> sensors_of_room(const Vec3& at) {
+    return {{"points", IlluminancePoints{{{at + Vec3{1.8, 1.4, 0.76}, kUp},
+                                          {at + Vec3{1.1, 1.1, 0.751}, kUp},
+                                          {at + Vec3{3.5, 2.5, 0}, kUp},
+                                          {at + Vec3{1.8, 1.4, 0.01}, kUp}}}},
+            {"sight", Luminance{{LineOfSight{at + Vec3{0.5, 0.5, 1.2}, normalized({1.3, 0.9, -0.45})}}}}};
+}
+
+std::vector<double> values_of(Scene scene, const std::vector<Sensor>& sensors, std::string_view method,
+                              std::uint64_t paths = 4096) {
+    scene::put_lamps_in_front(scene);
+    RunOptions options;
+    options.method = method;
+    options.paths = paths;
+    std::vector<double> values;
+    for (const SensorResult& sensor : measure(scene, sensors, options).sensors) {
+        for (const Reading& reading : sensor.readings) values.push_back(reading.estimate.value);
+    }
+    return values;
+}
+
+struct FarThing {
+    std::string name;
+    std::function<void(Scene&)> add;
+};
+
+/// Nothing of it is seen from inside the room.
+std::vector<FarThing> far_things() {
+    const auto object = [](const std::string& name, const Shape& shape) {
+        return FarThing{name, [shape](Scene& scene) { add_object(scene, shape, diffuse(0.5)); }};
+    };
+    const auto ground = [&](const std::string& name, double side_m) {
+        return object(name, Rectangle{{-side_m / 2, -side_m / 2, -0.2}, {side_m, 0, 0}, {0, side_m, 0}});
+    };
+    return {ground("a ground of 65 m", 65),
+            ground("a ground of 10 km", 1e4),
+            ground("a ground of 1000 km", 1e6),
+            object("a triangle at the edge of what is possible",
+                   Mesh{{{1e9, 1e9, 1e9}, {1e9 - 1, 1e9, 1e9}, {1e9, 1e9 - 1, 1e9}}, {{0, 1, 2}}}),
+            object("a sun", Sphere{{6e4, 0, 8e4}, 500}),
+            object("a body of many triangles", icosphere({{3000, 4000, 0}, 20}, 4)),
+            {"a lamp",
+             [](Scene& scene) {
+                 add_point_light(scene, {1e5, 0, 1e5}, Rgb::grey(1e-3));
+             }},
+            {"three triangles in three places", [&](Scene& scene) {
+                 for (const double far : {-5e3, 2e4, 3e6}) {
+                     add_object(scene,
+                                Mesh{{{far, far, 0}, {far + 1, far, 0}, {far, far + 1, 0}}, {{0, 1, 2}}},
+                                diffuse(0.5));
+                 }
+             }}};
+}
+
+TEST(FarThings, ChangeNoReadingOfAClosedRoom) {
+    for (const std::string_view method : {"path", "auto"}) {
+        const auto alone = values_of(furnished_room({}), sensors_of_room({}), method);
+        for (const FarThing& thing : far_things()) {
+            Scene scene = furnished_room({});
+            thing.add(scene);
+            const auto values = values_of(scene, sensors_of_room({}), method);
+            // The random numbers are the same unless a lamp is added, or `auto` chooses otherwise: the noise
+            // of a reading is 0.2 %.
+            for (std::size_t i = 0; i < alone.size(); ++i)
+                EXPECT_NEAR(values[i] / alone[i], 1, 0.008) << method << ", " << thing.name << ": " << i;
+        }
+    }
+}
+
+TEST(FarThings, ARoomAtMapCoordinatesWithATriangleLeftAtTheOrigin) {
+    const Vec3 map{3.5e6, 5.4e6, 120};
+    const auto alone = values_of(furnished_room({}), sensors_of_room({}), "path");
+    const Mesh stray{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+    Scene apart = furnished_room(map), in_one_mesh = apart;
+    add_object(apart, stray, diffuse(0.5));
+    Mesh& room = std::get<Mesh>(in_one_mesh.objects[0].shape = triangulated(Box{map, map + Vec3{4, 3, 2.5}}));
+    for (const Vec3& vertex : stray.vertices) room.vertices.push_back(vertex);
+    const auto first = static_cast<std::uint32_t>(room.vertices.size() - 3);
+    room.triangles.push_back({first, first + 1, first + 2});
+    for (const Scene& scene : {apart, in_one_mesh, furnished_room(map)}) {
+        const auto values = values_of(scene, sensors_of_room(map), "path");
+        for (std::size_t i = 0; i < alone.size(); ++i) EXPECT_NEAR(values[i] / alone[i], 1, 0.001) << i;
+    }
+}
+
+/// Sensors 0.5 m to 1 km from a panel of 0.3 m, with nothing else, in all directions, at once.
+TEST(FarThings, ALampAloneIsAsBrightFromEveryDistance) {
+    const Rectangle panel{{-0.05, -0.15, 3}, {0, 0.3, 0}, {0.1, 0, 0}};
+    Scene scene;
+    add_area_light(scene, panel, Rgb::grey(1e4));
+    std::vector<MeasuringPoint> points;
+    for (const double distance_m : {0.5, 3.0, 31.0, 33.0, 100.0, 1000.0}) {
+        for (const double angle : {0.0, 0.5, 2.0, 4.0}) {
+            const Vec3 out = normalized({std::cos(angle), std::sin(angle), -0.2 - angle});
+            points.push_back({Vec3{0, 0, 3} + distance_m * out, -out});
+        }
+    }
+    for (const std::string_view method : {"path", "auto"}) {
+        const auto values = values_of(scene, {point_sensor(points)}, method);
+        for (std::size_t i = 0; i < points.size(); ++i) {
+            const double exact_lx = exact::illuminance_by_rectangle_lx(
+                {points[i].position, points[i].normal}, panel.corner, panel.edge_u, panel.edge_v, 1e4);
+            EXPECT_NEAR(values[i] / exact_lx, 1, 0.001) << method << ' ' << i;
+        }
+    }
+}
+
+/// Below two panels 100 m apart, from a metre to less than rays can tell.
+TEST(FarThings, SensorsRightBelowALampAreBelowIt) {
+    const Rectangle strip{{0, 0, 1}, {0, 0.002, 0}, {10, 0, 0}}, panel{{100, 0, 1}, {0, 2, 0}, {3, 0, 0}};
+    Scene scene;
+    add_area_light(scene, strip, Rgb::grey(1e6));
+    add_area_light(scene, panel, Rgb::grey(100));
+    std::vector<MeasuringPoint> points;
+    for (const double below_m : {1.0, 1e-2, 1e-3, 1e-4, 1e-5, 1e-6}) {
+        points.push_back({{0, 0, 1 - below_m}, kUp});
+        points.push_back({{5, 0.001, 1 - below_m}, kUp});
+        points.push_back({{100, 0, 1 - below_m}, kUp});
+        points.push_back({{101, 1, 1 - below_m}, kUp});
+    }
+    const auto values = values_of(scene, {point_sensor(points)}, "auto", 8192);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        double exact_lx = 0;
+        for (const auto& [lamp, luminance_cd_m2] : {std::pair(strip, 1e6), std::pair(panel, 100.0)}) {
+            exact_lx += exact::illuminance_by_rectangle_lx({points[i].position, kUp}, lamp.corner,
+                                                           lamp.edge_u, lamp.edge_v, luminance_cd_m2);
+        }
+        EXPECT_NEAR(values[i] / exact_lx, 1, 0.001) << i;
+    }
+    // On its upper side, and exactly in its plane, there is no light.
+    const auto above = values_of(
+        scene, {point_sensor({{{101, 1, 1}, kUp}, {{101, 1, 1 + 1e-6}, kUp}, {{5, 0.001, 1}, kUp}})}, "path",
+        64);
+    for (const double lx : above) EXPECT_EQ(lx, 0);
+}
+
+}  // namespace
+}  // namespace stilb::run
