@@ -1,5 +1,7 @@
 #include "geometry/shape.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -223,6 +225,55 @@ Vec3 Harmonics::point_towards(const Vec3& direction) const {
 
 Vec3 Harmonics::normal_towards(const Vec3& direction) const {
     return axes.to_world(surface->normal_at(normalized(axes.to_local(direction))));
+}
+
+namespace {
+
+/// Whether the corners of two shapes lie at the same places.
+struct Coincide {
+    double tolerance_m;
+
+    bool near(const Vec3& a, const Vec3& b) const { return length(a - b) < tolerance_m; }
+    bool near(double a, double b) const { return std::abs(a - b) < tolerance_m; }
+
+    /// The corners may begin with another one.
+    bool operator()(const Rectangle& a, const Rectangle& b) const {
+        const std::array<Vec3, 4> first = corners(a), second = corners(b);
+        for (std::size_t shift = 0; shift < 4; ++shift) {
+            bool same = true;
+            for (std::size_t i = 0; i < 4; ++i) same = same && near(first[i], second[(i + shift) % 4]);
+            if (same) return true;
+        }
+        return false;
+    }
+    bool operator()(const Disk& a, const Disk& b) const {
+        return near(a.center, b.center) && near(a.radius, b.radius) &&
+               near(a.radius * a.normal, b.radius * b.normal);
+    }
+    bool operator()(const Sphere& a, const Sphere& b) const {
+        return near(a.center, b.center) && near(a.radius, b.radius);
+    }
+    bool operator()(const Box& a, const Box& b) const { return near(a.min, b.min) && near(a.max, b.max); }
+    bool operator()(const Mesh& a, const Mesh& b) const {
+        return a.triangles == b.triangles &&
+               std::ranges::equal(a.vertices, b.vertices,
+                                  [&](const Vec3& v, const Vec3& w) { return near(v, w); });
+    }
+    template <typename A, typename B>
+    bool operator()(const A&, const B&) const {
+        return false;
+    }
+
+  private:
+    static std::array<Vec3, 4> corners(const Rectangle& r) {
+        return {r.corner, r.corner + r.edge_u, r.corner + r.edge_u + r.edge_v, r.corner + r.edge_v};
+    }
+};
+
+}  // namespace
+
+bool coincide(const Shape& a, const Shape& b, double tolerance_m) {
+    return std::visit(Coincide{tolerance_m}, a, b);
 }
 
 }  // namespace stilb::geometry

@@ -153,6 +153,8 @@ inline double triangle_area_m2(const Mesh& mesh, std::size_t triangle) {
     const auto& [a, b, c] = mesh.triangles[triangle];
     return triangle_area_m2(mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]);
 }
+/// Whether two shapes of one kind have the same corners, closer than `tolerance_m`, and the same front.
+bool coincide(const Shape& a, const Shape& b, double tolerance_m);
 /// The transformed shape; fronts stay fronts under mirrored transforms. Boxes become meshes unless their axes
 /// stay axis-parallel. Precondition for spheres, disks and harmonics: the transform is a similarity.
 Shape transformed(Shape shape, const Transform& transform);

@@ -55,11 +55,12 @@ ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOption
 }
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
-                   const GlareViews& glare, std::size_t readings, math::RandomKey key,
-                   const ReplicatePlan& plan, std::uint64_t least_samples)
+                   const GlareViews& glare, const PossibleLight& possible, std::size_t readings,
+                   math::RandomKey key, const ReplicatePlan& plan, std::uint64_t least_samples)
     : estimator_(estimator),
       sensors_(sensors),
       glare_(glare),
+      possible_(possible),
       expected_largest_(estimator.expected_largest()),
       pools_errors_(plan.pools_errors),
       has_paces_(plan.has_paces),
@@ -218,6 +219,7 @@ void Campaign::require_valid() const {
 
 Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first, double confidence) const {
     const std::size_t count = sensor.size();
+    const auto known_part = estimator_.known_part().subspan(first, count);
     Estimates all;
     if (const auto columns_and_rows = sensor.count(); pools_errors_ && columns_and_rows)
         all.columns = static_cast<std::size_t>((*columns_and_rows)[0]);
@@ -230,6 +232,9 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
         const bool is_ruled_out = known.overall == 0 && samples >= kSamplesToRuleOut;
         if (!expected_largest_.empty() && !is_ruled_out)
             known.overall = std::max(known.overall, expected_largest_[first + j]);
+        // That no sample found anything is no proof that there is nothing: replicates agree all the same.
+        if (known.overall == 0 && known_part[j].luminance() > 0)
+            known.overall = possible_.of(sensor.measurand(j));
         all.samples.push_back(samples);
         all.rare_light.push_back(statistics::rare_light(known, samples));
     }

@@ -10,6 +10,7 @@
 
 #include "estimators/estimator.h"
 #include "run/options.h"
+#include "run/possible_light.h"
 #include "run/schedule.h"
 #include "sensors/sensor.h"
 #include "statistics/bias.h"
@@ -32,14 +33,14 @@ struct ReplicatePlan {
 class GlareViews;
 
 /// The sums of all replicates, and their progress. Keeps references to the estimator, to the sensors, which
-/// may have no readings, and to what their eyes see.
+/// may have no readings, to what their eyes see, and to the light that may be missed.
 class Campaign final : public Work {
   public:
     /// `readings`: of all sensors. `key`: of all replicates. `least_samples`: of all replicates, before the
     /// first error estimate.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, const GlareViews& glare,
-             std::size_t readings, math::RandomKey key, const ReplicatePlan& plan,
-             std::uint64_t least_samples);
+             const PossibleLight& possible, std::size_t readings, math::RandomKey key,
+             const ReplicatePlan& plan, std::uint64_t least_samples);
 
     std::uint64_t samples() const override { return samples_; }
     std::uint64_t samples_in_all() const override;
@@ -124,6 +125,7 @@ class Campaign final : public Work {
     const estimators::Estimator& estimator_;
     std::span<const Sensor> sensors_;
     const GlareViews& glare_;
+    const PossibleLight& possible_;
     std::vector<double> expected_largest_;
     bool pools_errors_, has_paces_;
     Target target_;

@@ -12,6 +12,7 @@
 #include "run/glare/glare.h"
 #include "run/glare/glare_picture.h"
 #include "run/level_of_detail.h"
+#include "run/possible_light.h"
 #include "run/power_density.h"
 #include "run/run.h"
 #include "run/sensor_estimates.h"
@@ -283,7 +284,8 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
         glare.emplace(sensors, setting, plan.replicates,
                       math::RandomKey{options.seed}.derived(kReadingGlare));
     });
-    Campaign campaign(*estimator, sensors, *glare, wanted.measurands.size(),
+    const PossibleLight possible(scene, session.caster(), problem.max_reflections);
+    Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(),
                       math::RandomKey{options.seed}.derived(kReadingReplicates), plan,
                       std::min(sharp.samples, kMostAwaited));
     RunResult result;

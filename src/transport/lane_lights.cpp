@@ -59,15 +59,15 @@ struct alignas(64) LaneLights::Chosen {
     }
 };
 
-std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift) {
+std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift, const LightSampler& lights) {
     if (scene.lights.empty() || scene.lights.size() > kMost) return std::nullopt;
     const Vec3& center = lift.center();
     LaneLights all;
     all.least_size_m_ = static_cast<float>(lift.least_size_m());
-    all.light_of_object_.resize(scene.objects.size());
     for (const stilb::Light& light : scene.lights) {
         Light lane{};
-        lane.flux_lm = static_cast<float>(scene::flux_lm(scene, light).luminance());
+        lane.flux_lm = static_cast<float>(lights.choice_favour(all.lights_.size()) *
+                                          scene::flux_lm(scene, light).luminance());
         if (const auto* point = std::get_if<PointLight>(&light.source)) {
             lane.rectangle.corner = lane_point(point->position - center);
             lane.emission = lane_rgb(point->intensity_cd);
@@ -79,7 +79,6 @@ std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift) {
             lane.emission = lane_rgb(surface->luminance_cd_m2);
             lane.squared_radius_m2 =
                 (rectangle->width * rectangle->width + rectangle->depth * rectangle->depth) / 4;
-            all.light_of_object_[index_of(surface->object)] = static_cast<std::uint32_t>(all.lights_.size());
         } else {
             return std::nullopt;
         }
@@ -185,15 +184,15 @@ void LaneLights::sample(const rays::SurfacePacket& at, const math::NumberPacket&
     sample_chosen(chosen, at, numbers, light);
 }
 
-float LaneLights::pdf_per_sr(ObjectId object, const Vec3& position, const Vec3& from,
+float LaneLights::pdf_per_sr(std::size_t light, const Vec3& position, const Vec3& from,
                              const Vec3& normal) const {
-    const std::uint32_t own = light_of_object_[index_of(object)];
     const LanePoint at = lane_point(from);
-    const float pdf = lights_[own].rectangle.pdf_per_sr(at, lane_point(position));
+    const Light& own = lights_[light];
+    const float pdf = own.rectangle.pdf_per_sr(at, lane_point(position));
     if (only_) return pdf;
     float total = 0;
-    for (const Light& light : lights_) total += rough_lx(light, at, lane_point(normal));
-    return total > 0 ? pdf * rough_lx(lights_[own], at, lane_point(normal)) / total : 0;
+    for (const Light& other : lights_) total += rough_lx(other, at, lane_point(normal));
+    return total > 0 ? pdf * rough_lx(own, at, lane_point(normal)) / total : 0;
 }
 
 }  // namespace stilb::transport

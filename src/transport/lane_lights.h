@@ -14,6 +14,7 @@
 #include "lights/solid_angle/lane_rectangle.h"
 #include "math/random_lanes.h"
 #include "rays/ray_caster.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::transport {
 
@@ -35,13 +36,13 @@ class LaneLights {
     static constexpr std::size_t kMost = 32;
 
     /// Nothing where some light is of another kind, or where there are none or too many.
-    static std::optional<LaneLights> of(const Scene& scene, const Lift& lift);
+    static std::optional<LaneLights> of(const Scene& scene, const Lift& lift, const LightSampler& lights);
 
     /// Samples one light at each point by the first two numbers.
     void sample(const rays::SurfacePacket& at, const math::NumberPacket& numbers, LightPacket& light) const;
-    /// The density of the direction from a surface to a point of an emitting object in sample(). Relative to
+    /// The density of the direction from a surface to a point of a light's surface in sample(). Relative to
     /// the scene's centre.
-    float pdf_per_sr(ObjectId object, const Vec3& position, const Vec3& from, const Vec3& normal) const;
+    float pdf_per_sr(std::size_t light, const Vec3& position, const Vec3& from, const Vec3& normal) const;
 
   private:
     struct Light {
@@ -61,7 +62,6 @@ class LaneLights {
     static float rough_lx(const Light& light, const lights::LanePoint& from, const lights::LanePoint& normal);
 
     std::vector<Light> lights_;
-    std::vector<std::uint32_t> light_of_object_;
     std::shared_ptr<const Chosen> only_;  ///< the choice where there is one light; else null
     float least_size_m_ = 0;              ///< see Lift
 };

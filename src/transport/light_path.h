@@ -23,6 +23,7 @@ struct LightVertex {
     /// The particle left a point-like source and met a mirror or glass first (and did not pass straight
     /// through a pane): path tracing cannot find this light, at any vertex.
     bool only_by_light = false;
+    double favour = 1;  ///< as EmittedParticle's: the vertex counts so much more where some are selected
 };
 
 /// Traces one light path. Absorption (Russian roulette with the surface's reflectance) comes before a vertex

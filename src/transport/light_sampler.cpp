@@ -3,13 +3,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <limits>
+#include <map>
 #include <numbers>
 #include <utility>
 
 #include "base/vec.h"
 #include "math/sampling.h"
 #include "stilb/error.h"
+#include "transport/weak_lights.h"
 
 namespace stilb::transport {
 
@@ -24,7 +28,11 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
         if (outside_ != weights.size() - 1) others_lm += weights.back();
     }
     if (outside_ != kNoLight && others_lm > 0) weights[outside_] = std::min(weights[outside_], others_lm);
-    by_flux_ = math::DiscreteDistribution(weights);
+    join_emitters_in_one_place(scene, caster);
+    emission_favours_ = emission_favours(weights);
+    for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= emission_favours_[i];
+    by_emission_ = math::DiscreteDistribution(weights);
+    set_choice_favours(caster);
     if (goes_by_tree()) tree_ = planted_tree(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); });
     const auto extended = std::ranges::count(locations_, LightLocation::surface);
     if (extended > std::ptrdiff_t{kFew})
@@ -48,12 +56,54 @@ void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCa
     has_visible_lights_ = has_visible_lights_ || !is_point(number);
 }
 
+/// Rays cannot tell which of them they meet.
+void LightSampler::join_emitters_in_one_place(const Scene& scene, const rays::RayCaster& caster) {
+    next_in_place_.resize(count());
+    std::map<std::array<long long, 3>, std::vector<std::uint32_t>> by_place;
+    for (std::uint32_t light = 0; light < count(); ++light) {
+        next_in_place_[light] = light;
+        const auto object = lights::emitting_object(scene.lights[light]);
+        if (!object) continue;
+        constexpr double millimetres = 1e3;
+        const Shape& shape = scene.object(*object).shape;
+        const Vec3 middle = millimetres * bounds_of(shape).middle();
+        std::vector<std::uint32_t>& near =
+            by_place[{std::llround(middle.x), std::llround(middle.y), std::llround(middle.z)}];
+        const double tolerance_m = caster.offset_m(bounds_of(shape).middle(), 0);
+        for (const std::uint32_t other : near) {
+            const ObjectId of_other = *lights::emitting_object(scene.lights[other]);
+            if (!coincide(shape, scene.object(of_other).shape, tolerance_m)) continue;
+            next_in_place_[light] = std::exchange(next_in_place_[other], light);
+            break;
+        }
+        near.push_back(light);
+    }
+}
+
+void LightSampler::set_choice_favours(const rays::RayCaster& caster) {
+    choice_favours_.assign(count(), 1);
+    if (count() <= 1) return;
+    std::vector<double> flux_lm;
+    for (std::size_t i = 0; i < count(); ++i)
+        flux_lm.push_back(i == outside_ || is_made_elsewhere(i) ? 0 : flux_lm_[i].luminance());
+    const auto emit_one = [this](std::size_t light, math::SampleStream& stream) {
+        return emit(light, stream);
+    };
+    const auto rough_lx = [this](std::size_t light, const Vec3& position, const Vec3& normal) {
+        return rough_illuminance_lx(light, position, normal);
+    };
+    choice_favours_ = choice_favours({flux_lm, emit_one, rough_lx, count(), outside_ != kNoLight}, caster);
+}
+
 EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const {
-    const auto choice = by_flux_.choose(stream.next());
-    const auto [origin, direction, share] =
-        std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[choice.index]);
-    return {origin, direction, share * (flux_lm_[choice.index] * (1 / choice.probability)),
-            is_point(choice.index), static_cast<std::uint32_t>(choice.index)};
+    const auto choice = by_emission_.choose(stream.next());
+    const auto [origin, direction, share] = emit(choice.index, stream);
+    return {origin,
+            direction,
+            share * (flux_lm_[choice.index] * (1 / choice.probability)),
+            is_point(choice.index),
+            static_cast<std::uint32_t>(choice.index),
+            emission_favours_[choice.index]};
 }
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,
@@ -63,7 +113,8 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
 
 double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const {
     if (is_made_elsewhere(light)) return 0;
-    return std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(from, normal); },
+    return choice_favours_[light] *
+           std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(from, normal); },
                       emitters_[light]);
 }
 
@@ -118,7 +169,8 @@ LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condit
     for (std::uint32_t i = 0; i < count(); ++i) {
         if (!condition(i)) continue;
         // Between that of a ball and of a flat surface along its normal.
-        LightTree::Light leaf{i, {}, flux_lm_[i].luminance() / (2 * std::numbers::pi), is_point(i)};
+        const double luminous_lm = choice_favours_[i] * flux_lm_[i].luminance();
+        LightTree::Light leaf{i, {}, luminous_lm / (2 * std::numbers::pi), is_point(i)};
         if (const auto origin = lights::point_origin(scene.lights[i])) {
             leaf.bounds.include(origin->position);
             leaf.intensity_cd /= 2;
@@ -130,14 +182,15 @@ LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condit
     return LightTree(std::move(leaves));
 }
 
-double LightSampler::extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPoint& at) const {
-    const double pdf_per_sr = pdf_of_its_light_per_sr(hit, at.position);
+double LightSampler::extended_pdf_per_sr(std::size_t light, const rays::Hit& hit,
+                                         const ReceivingPoint& at) const {
+    const double pdf_per_sr = pdf_of_its_light_per_sr(light, hit, at.position);
     if (!(pdf_per_sr > 0) || !chooses_extended(at)) return pdf_per_sr;
     const auto rough_lx = rough_at(at);
     const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
     if (!(cut.total_lx() > 0)) return 0;
-    const std::uint32_t light = light_of_object_[index_of(hit.object)];
-    return kFew * extended_.probability(cut, light, at.position, *at.normal, rough_lx) * pdf_per_sr;
+    const auto number = static_cast<std::uint32_t>(light);
+    return kFew * extended_.probability(cut, number, at.position, *at.normal, rough_lx) * pdf_per_sr;
 }
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
@@ -150,9 +203,8 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, co
     return choices.sample(choices.choose(u), point, 1);
 }
 
-double LightSampler::pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const {
-    const std::uint32_t light = light_of_object_[index_of(hit.object)];
-    if (light == kNoLight) return 0;
+double LightSampler::pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit,
+                                             const Vec3& from) const {
     return std::visit(
         [&]<typename Emitter>(const Emitter& emitter) -> double {
             if constexpr (lights::SurfaceEmitterKind<Emitter>) {
@@ -163,11 +215,10 @@ double LightSampler::pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& f
         emitters_[light]);
 }
 
-double LightSampler::pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const {
-    const std::uint32_t light = light_of_object_[index_of(hit.object)];
-    if (light == kNoLight) return 0;
+double LightSampler::pdf_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from,
+                                const Vec3& normal) const {
     if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
-    return times_choice(pdf_of_its_light_per_sr(hit, from), light, from, normal);
+    return times_choice(pdf_of_its_light_per_sr(light, hit, from), light, from, normal);
 }
 
 double LightSampler::times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const {
@@ -209,8 +260,9 @@ double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from,
 }
 
 Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const {
-    const std::uint32_t light = light_of_object_[index_of(hit.object)];
-    return hit.on_front && light != kNoLight ? front_luminance(light, leaving) : Rgb{};
+    Rgb sum;
+    for_each_emission(hit, leaving, [&](std::size_t, const Rgb& luminance) { sum += luminance; });
+    return sum;
 }
 
 Rgb LightSampler::front_luminance(std::size_t light, const Vec3& leaving) const {

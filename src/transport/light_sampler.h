@@ -23,9 +23,12 @@ using lights::ReceivingPoint;
 struct EmittedParticle {
     Vec3 origin;  ///< lifted off the source
     Vec3 direction;
-    Rgb flux_lm;              ///< total flux of the scene's lights, coloured by the chosen one
+    /// Its light's flux over the probability of the choice: the total flux of the scene's lights over
+    /// `favour`, coloured by the chosen one.
+    Rgb flux_lm;
     bool from_point = false;  ///< from a light that no ray can hit
     std::uint32_t light = 0;  ///< of Scene::lights
+    double favour = 1;        ///< the light's share of particles over its share of the flux
 };
 
 /// All lights of a scene. The kinds of lights (lights/) define their light; the sampler chooses among lights.
@@ -39,7 +42,8 @@ class LightSampler {
     LightSampler(const Scene& scene, const rays::RayCaster& caster, std::vector<bool> made_elsewhere = {});
 
     /// Samples a particle about in proportion to the emitted luminous flux: light, position, direction. Light
-    /// from infinity, most of which misses a scene of rooms, gets at most as many as all others together.
+    /// from infinity, most of which misses a scene of rooms, gets at most as many as all others together,
+    /// and weak lights get more (weak_lights.h).
     EmittedParticle sample_emission(math::SampleStream& stream) const;
 
     std::size_t count() const { return emitters_.size(); }
@@ -54,9 +58,11 @@ class LightSampler {
                                                  const std::array<double, 2>& u) const {
         return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
     }
-    /// Its approximate unshadowed illuminance of a surface; 0 only where that is exactly 0, or where the
-    /// light is made elsewhere.
+    /// Its approximate unshadowed illuminance of a surface, of weak lights more (weak_lights.h); 0 only where
+    /// that is exactly 0, or where the light is made elsewhere.
     double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    /// The factor in that by which a light is favoured in choices at points.
+    double choice_favour(std::size_t light) const { return choice_favours_[light]; }
     /// Samples one source, chosen by its unshadowed contribution at `from` (approximately, if there are many
     /// lights); divided by the choice's probability. Allocates no memory.
     std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
@@ -76,13 +82,18 @@ class LightSampler {
     bool chooses_extended() const { return !extended_.is_empty(); }
     /// The approximate density of the direction to `hit` over all samples of sample_extended(); likewise for
     /// a ray that leaves the scene.
-    double extended_pdf_per_sr(const rays::Hit& hit, const ReceivingPoint& at) const;
+    double extended_pdf_per_sr(std::size_t light, const rays::Hit& hit, const ReceivingPoint& at) const;
 
-    /// The approximate density of the direction to `hit`, on an emitter, in sample_one_light(); 0 where
-    /// it never samples it, infinite where the light is made elsewhere.
-    double pdf_per_sr(const rays::Hit& hit, const Vec3& from, const Vec3& normal) const;
-    /// The same for sample_incident() with the light that `hit` is on.
-    double pdf_of_its_light_per_sr(const rays::Hit& hit, const Vec3& from) const;
+    /// Calls `visit(light, luminance)` for each light whose emitter `hit` is on, with the luminance that
+    /// leaves in a unit direction: for several where emitters lie in one place, whose light adds up.
+    template <typename Visit>
+    void for_each_emission(const rays::Hit& hit, const Vec3& leaving, const Visit& visit) const;
+
+    /// The approximate density of the direction to `hit`, on an emitter of `light`, in sample_one_light();
+    /// infinite where the light is made elsewhere.
+    double pdf_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from, const Vec3& normal) const;
+    /// The same for sample_incident() with the light.
+    double pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from) const;
 
     /// Luminance that leaves `hit`, on an emitter, in a unit direction; zero elsewhere.
     Rgb emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const;
@@ -104,6 +115,11 @@ class LightSampler {
     static constexpr std::size_t kFew = 32;
 
     void add(const Light& light, const Scene& scene, const rays::RayCaster& caster);
+    lights::Emission emit(std::size_t light, math::SampleStream& stream) const {
+        return std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[light]);
+    }
+    void set_choice_favours(const rays::RayCaster& caster);
+    void join_emitters_in_one_place(const Scene& scene, const rays::RayCaster& caster);
     bool is_made_elsewhere(std::size_t light) const {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
@@ -125,8 +141,11 @@ class LightSampler {
     std::vector<lights::Emitter> emitters_;
     std::vector<LightLocation> locations_;
     std::vector<Rgb> flux_lm_;
-    math::DiscreteDistribution by_flux_;
+    std::vector<double> emission_favours_, choice_favours_;
+    math::DiscreteDistribution by_emission_;
     std::vector<std::uint32_t> light_of_object_;  ///< kNoLight for objects without a light
+    /// For each light another one whose emitter lies in the same place, in a ring; itself where it is alone.
+    std::vector<std::uint32_t> next_in_place_;
     std::vector<bool> made_elsewhere_;
     LightTree tree_;                    ///< of the lights at finite distance that are not made elsewhere
     LightTree extended_;                ///< of the lights with a surface, where they are many
@@ -157,6 +176,18 @@ class LightSampler::Choices {
     LightTree::Cut cut_;                ///< of many lights
     double outside_lx_ = 0, all_lx_ = 0;
 };
+
+template <typename Visit>
+void LightSampler::for_each_emission(const rays::Hit& hit, const Vec3& leaving, const Visit& visit) const {
+    const std::uint32_t own = light_of_object_[index_of(hit.object)];
+    if (!hit.on_front || own == kNoLight) return;
+    std::uint32_t light = own;
+    do {
+        const Rgb luminance = front_luminance(light, leaving);
+        if (luminance.max() > 0) visit(light, luminance);
+        light = next_in_place_[light];
+    } while (light != own);
+}
 
 template <typename Visit>
 void LightSampler::sample_some_lights(const Vec3& from, const Vec3& normal, std::uint32_t samples,

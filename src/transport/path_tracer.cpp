@@ -40,7 +40,7 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
         for (std::size_t b = 0; b < kBands; ++b)
             plain_materials_[i].reflectance[b] = static_cast<float>(diffuse->reflectance[b]);
     }
-    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.lift());
+    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.lift(), lights);
 }
 
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
@@ -141,19 +141,22 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     return step;
 }
 
-double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const {
+double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, std::size_t light,
+                              const rays::Hit& emitter) const {
     const auto& [pdf, position, normal, took_lanes] = previous_vertex;
-    if (!took_lanes) return lights_.pdf_per_sr(emitter, position, normal);
+    if (!took_lanes) return lights_.pdf_per_sr(light, emitter, position, normal);
     const Vec3& center = caster_.center();
-    return double{
-        lane_lights_->pdf_per_sr(emitter.object, emitter.position - center, position - center, normal)};
+    return double{lane_lights_->pdf_per_sr(light, emitter.position - center, position - center, normal)};
 }
 
 Rgb PathTracer::emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
                                  const Vec3& leaving) const {
-    const Rgb emission = lights_.emitted_luminance(emitter, leaving);
-    if (!(emission.max() > 0)) return {};
-    return emission * share_of(previous_vertex, [&] { return pdf_per_sr(previous_vertex, emitter); });
+    Rgb sum;
+    lights_.for_each_emission(emitter, leaving, [&](std::size_t light, const Rgb& emission) {
+        sum +=
+            emission * share_of(previous_vertex, [&] { return pdf_per_sr(previous_vertex, light, emitter); });
+    });
+    return sum;
 }
 
 Rgb PathTracer::outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const {

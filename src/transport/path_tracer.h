@@ -137,7 +137,8 @@ class PathTracer {
                          const Vec3& leaving) const;
     Rgb outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const;
     /// The density of next-event estimation at the previous vertex.
-    double pdf_per_sr(const PreviousVertex& previous_vertex, const rays::Hit& emitter) const;
+    double pdf_per_sr(const PreviousVertex& previous_vertex, std::size_t light,
+                      const rays::Hit& emitter) const;
     /// A single path.
     void follow(Path& path) const;
 

@@ -161,14 +161,19 @@ Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, 
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
     const auto seen = caster.seen({receiver.lifted(), sample->direction});
-    const Rgb emission =
-        seen.transmittance * (seen.hit ? lights.emitted_luminance(*seen.hit, -sample->direction)
-                                       : lights.outside_luminance(sample->direction));
-    if (!(emission.max() > 0)) return {};
-    const double light_pdf =
-        seen.hit ? lights.extended_pdf_per_sr(*seen.hit, receiving_point(receiver))
-                 : lights.pdf_of_outside_light_per_sr(sample->direction, receiving_point(receiver));
-    return sample->weight * emission * balance(sample->pdf_per_sr, light_pdf);
+    const ReceivingPoint at = receiving_point(receiver);
+    Rgb sum;
+    const auto add = [&](const Rgb& emission, double light_pdf) {
+        sum += sample->weight * (seen.transmittance * emission) * balance(sample->pdf_per_sr, light_pdf);
+    };
+    if (seen.hit) {
+        lights.for_each_emission(*seen.hit, -sample->direction, [&](std::size_t light, const Rgb& emission) {
+            add(emission, lights.extended_pdf_per_sr(light, *seen.hit, at));
+        });
+    } else if (const Rgb emission = lights.outside_luminance(sample->direction); emission.max() > 0) {
+        add(emission, lights.pdf_of_outside_light_per_sr(sample->direction, at));
+    }
+    return sum;
 }
 
 }  // namespace

@@ -349,5 +349,50 @@ TEST(DirectLight, ManyPointLightsAreChosenWithoutBias) {
     expect_agreement(s, 2000);
 }
 
+/// A hall with lamps of all kinds, and a screen that hides some of them from some receivers.
+Scene hall_with_lamps(int count) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {40, 10, 3}}, diffuse(0.5));
+    add_object(scene, triangulated(Box{{2.2, 0.5, 0.5}, {2.3, 4, 2}}), diffuse(0.5));
+    for (int i = 0; i < count; ++i) {
+        const Vec3 corner{0.5 + i % 16, 0.7 + i / 16, 2.9};
+        const Rgb luminance = Rgb::grey(100 + 10 * (i % 7));
+        if (i % 4 == 0) add_area_light(scene, Rectangle{corner, {0, 0.4, 0}, {0.4, 0, 0}}, luminance);
+        if (i % 4 == 1) add_area_light(scene, Sphere{corner, 0.1}, luminance);
+        if (i % 4 == 2) {
+            const lights::Opening opening{lights::Opening::Form::box, {0.5, 0.3, 0}};
+            add_opening(scene, corner, uneven_solid(), opening);
+        }
+        if (i % 4 == 3) add_area_light(scene, icosphere({corner, 0.1}, 1), luminance);  // no closed form
+    }
+    return scene;
+}
+
+/// Around kFew lamps, up to which each has a bit and a shadow ray of its own.
+TEST(DirectLight, ManyLampsAreSettledOrChosenWithoutBias) {
+    for (const int count : {31, 32, 33, 64, 65, 130}) {
+        SCOPED_TRACE(count);
+        Setting s(hall_with_lamps(count));
+        s.add_tile(1.5, 1.5, 0.8, 0.3);
+        const auto remainder = s.direct.prepare(s.receivers, Monitor::none()).remainders[0];
+        EXPECT_EQ(remainder.open.empty(), count <= 32);
+        EXPECT_EQ(remainder.has_lamps(), count <= 32);
+        EXPECT_FALSE(remainder.chooses_by_tree);
+        expect_agreement(s, 500);
+    }
+}
+
+/// 33 lamps at 9090 receivers are looked at one by one, at 9091 no more.
+TEST(DirectLight, ManyLampsAtManyReceiversAreChosenByTheTree) {
+    Setting s(hall_with_lamps(33));
+    s.add_tile(1.5, 1.5, 0.8, 0.3);
+    const Receiver below_the_floor(0, MeasuringPoint{{5, 5, -1}, {0, 0, -1}}, s.caster);  // quickly settled
+    s.receivers.resize(9090, below_the_floor);
+    EXPECT_FALSE(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].chooses_by_tree);
+    s.receivers.push_back(below_the_floor);
+    EXPECT_TRUE(s.direct.prepare(s.receivers, Monitor::none()).remainders[0].chooses_by_tree);
+    expect_agreement(s, 500);
+}
+
 }  // namespace
 }  // namespace stilb::transport

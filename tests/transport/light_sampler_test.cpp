@@ -92,7 +92,8 @@ TEST(ExtendedLights, HaveTheDensityThatTheyAreSampledWith) {
         lights.sample_extended(at, stream, [&](const IncidentLight& light) {
             const auto hit = caster.closest(at.position, light.direction);
             ASSERT_TRUE(hit);
-            EXPECT_NEAR(lights.extended_pdf_per_sr(*hit, at), light.pdf_per_sr, 1e-3 * light.pdf_per_sr);
+            EXPECT_NEAR(lights.extended_pdf_per_sr(index_of(hit->object), *hit, at), light.pdf_per_sr,
+                        1e-3 * light.pdf_per_sr);
         });
     }
 }
@@ -115,10 +116,10 @@ TEST(IncidentLight, LeavesOutWhatIsMadeElsewhere) {
     const auto left_out = caster.closest(from, normalized(Vec3{-0.5, 0, 3}));
     const auto kept = caster.closest(from, normalized(Vec3{1.5, 0, 3}));
     ASSERT_TRUE(left_out && kept);
-    EXPECT_TRUE(std::isinf(rest.pdf_per_sr(*left_out, from, up)));
-    const double kept_pdf = rest.pdf_per_sr(*kept, from, up);
+    EXPECT_TRUE(std::isinf(rest.pdf_per_sr(0, *left_out, from, up)));
+    const double kept_pdf = rest.pdf_per_sr(1, *kept, from, up);
     EXPECT_GT(kept_pdf, 0);
-    EXPECT_EQ(kept_pdf, rest.pdf_of_its_light_per_sr(*kept, from));
+    EXPECT_EQ(kept_pdf, rest.pdf_of_its_light_per_sr(1, *kept, from));
 }
 
 TEST(IncidentLight, OfShapesIsThatOfConfigurationFactors) {
@@ -239,7 +240,7 @@ TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
         ASSERT_TRUE(hit);
         if (length(hit->lifted - light->source_point) > 1e-3) continue;  // something stands before it
         ++met[index_of(hit->object)];
-        const double pdf = lights.pdf_per_sr(*hit, from, normal);
+        const double pdf = lights.pdf_per_sr(index_of(hit->object), *hit, from, normal);
         EXPECT_NEAR(pdf, light->pdf_per_sr, 1e-6 * pdf) << index_of(hit->object);
         // Light times the true density is the luminance; this one is about the truth.
         const double ratio =

@@ -132,7 +132,7 @@ TEST(LaneLights, AgreeWithLightSampler) {
     add_area_light(scene, Rectangle{{0.1, 1, 1}, {0, 1, 0}, {0, 0, 0.4}}, 40 * kWhite);
     add_point_light(scene, {2.5, 2.5, 2}, 5 * kWhite);
     const Traced traced(scene);
-    const auto lanes = LaneLights::of(scene, traced.caster.lift());
+    const auto lanes = LaneLights::of(scene, traced.caster.lift(), traced.lights);
     ASSERT_TRUE(lanes);
     rays::SurfacePacket at{};
     std::vector<rays::Hit> points;
@@ -172,7 +172,7 @@ TEST(LaneLights, HaveOneDensity) {
     add_area_light(scene, panel({1.2, 1.1, 2.9}, 0.6, 0.5), 100 * kWhite);
     add_area_light(scene, panel({0.2, 0.1, 2.8}, 0.3, 1.5), 100 * kWhite);
     const Traced traced(scene);
-    const auto lanes = LaneLights::of(scene, traced.caster.lift());
+    const auto lanes = LaneLights::of(scene, traced.caster.lift(), traced.lights);
     rays::SurfacePacket at{};
     std::size_t lane = 0;
     for (const Path& path : traced.paths({5}, 0, kPacketWidth))
@@ -186,8 +186,8 @@ TEST(LaneLights, HaveOneDensity) {
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
             if (!(light.inverse_pdf_sr[i] > 0)) continue;
             const bool is_first = light.source.z[i] > 1.35f;  // relative to the centre
-            const float pdf_per_sr = lanes->pdf_per_sr(ObjectId{is_first ? 1u : 2u}, light.source.at(i),
-                                                       at.position.at(i), at.normal.at(i));
+            const float pdf_per_sr =
+                lanes->pdf_per_sr(is_first ? 0 : 1, light.source.at(i), at.position.at(i), at.normal.at(i));
             EXPECT_NEAR(pdf_per_sr * light.inverse_pdf_sr[i], 1, 1e-3);
             ++compared;
         }
@@ -196,12 +196,16 @@ TEST(LaneLights, HaveOneDensity) {
 }
 
 TEST(LaneLights, LeaveOtherLightsToLightSampler) {
+    const auto has_lanes = [](const Scene& scene) {
+        const rays::RayCaster caster(scene);
+        return LaneLights::of(scene, caster.lift(), LightSampler(scene, caster)).has_value();
+    };
     Scene scene;
-    EXPECT_FALSE(LaneLights::of(scene, Lift{}));
+    EXPECT_FALSE(has_lanes(scene));
     add_area_light(scene, panel({1.2, 1.1, 2.9}, 0.6, 0.5), 100 * kWhite);
-    EXPECT_TRUE(LaneLights::of(scene, Lift{}));
+    EXPECT_TRUE(has_lanes(scene));
     add_area_light(scene, Rectangle{{0, 0, 0}, {1, 0, 0}, {0.5, 1, 0}}, kWhite);  // not right-angled
-    EXPECT_FALSE(LaneLights::of(scene, Lift{}));
+    EXPECT_FALSE(has_lanes(scene));
 }
 
 }  // namespace

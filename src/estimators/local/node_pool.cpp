@@ -41,9 +41,10 @@ double reflected_flux(const transport::LightVertex& node) {
     return Rgb{{std::abs(reflected[0]), std::abs(reflected[1]), std::abs(reflected[2])}}.luminance();
 }
 
-/// The importance of a vertex: the reflected flux, times the root mean square of the relative BRDF.
+/// The importance of a vertex: the reflected flux with its favour, times the root mean square of the relative
+/// BRDF.
 double importance_of(const transport::LightVertex& node) {
-    return reflected_flux(node) * std::sqrt(mean_concentration(*node.material));
+    return node.favour * reflected_flux(node) * std::sqrt(mean_concentration(*node.material));
 }
 
 /// The lobe in which a vertex reflects, from two values of its BRDF: in the middle of the lobe, and far from
@@ -108,12 +109,12 @@ NearNodePool::NearNodePool(const std::vector<transport::LightVertex>& nodes, con
             with_lobes.emplace_back(n, *lobe);
         } else {
             nodes_.push_back(nodes[n]);
-            choice_.add(nodes[n].position, nodes[n].normal, reflected_flux(nodes[n]));
+            choice_.add(nodes[n].position, nodes[n].normal, nodes[n].favour * reflected_flux(nodes[n]));
         }
     }
     for (const auto& [n, lobe] : with_lobes) {
         nodes_.push_back(nodes[n]);
-        choice_.add(nodes[n].position, nodes[n].normal, reflected_flux(nodes[n]), lobe);
+        choice_.add(nodes[n].position, nodes[n].normal, nodes[n].favour * reflected_flux(nodes[n]), lobe);
     }
 }
 

@@ -38,31 +38,35 @@ struct DirectLight::ShadowRays {
 double DirectLight::Remainder::rays(std::size_t receivers) const {
     int of_lamps = 0;
     for (const std::uint32_t bits : lamps) of_lamps += std::popcount(bits);
-    const double each = (by_directions ? 1 : 0) + (points ? double{kChosen} : 0);
+    for (const OpenLamps& of_receiver : open) of_lamps += static_cast<int>(of_receiver.choices());
+    const double directions = chooses_by_tree ? double{OpenLamps::kChosen} : by_directions ? 1 : 0;
+    const double each = directions + (points ? double{kChosen} : 0);
     return of_lamps + each * static_cast<double>(receivers);
 }
 
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
-    : scene_(scene), caster_(caster), lights_(lights) {
+    : scene_(scene), caster_(caster), lights_(lights), has_many_lamps_(lights.chooses_extended()) {
     std::vector<LightTree::Light> leaves;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
         if (const auto origin = lights::point_origin(light)) {
             points_.push_back(i);
             const double intensity_cd = flux_lm(scene, light).luminance() / (4 * kPi);
-            leaves.push_back({static_cast<std::uint32_t>(i), {}, intensity_cd, true});
+            leaves.push_back(
+                {static_cast<std::uint32_t>(i), {}, lights.choice_favour(i) * intensity_cd, true});
             leaves.back().bounds.include(origin->position);
         } else if (auto lamp = UniformLamp::of(scene, light, caster.lift())) {
             lamps_.push_back(std::move(*lamp));
         } else if (auto opening = OpeningLamp::of(scene, light, caster.lift())) {
             openings_.push_back(std::move(*opening));
+            of_openings_.push_back(i);
+        } else if (has_many_lamps_ && location_of(light) == LightLocation::surface) {
+            surfaces_.push_back(i);
         } else {
             others_.push_back(i);
         }
     }
     if (points_.size() > kFewPoints) tree_of_points_ = LightTree(std::move(leaves));
-    chooses_lamps_ = lights.chooses_extended();
-    if (chooses_lamps_) lamps_.clear(), openings_.clear();
     if (lamp_count() > 0) shafts_.emplace(scene, caster.center());
 }
 
@@ -70,6 +74,8 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
                                            const Monitor& monitor) const {
     const std::size_t tiles = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     const bool exact_points = points_.size() <= kFewPoints || points_.size() * receivers.size() <= kMostExact;
+    const std::size_t lamps = lamp_count() + surfaces_.size();
+    const bool settles = has_many_lamps_ && lamps * receivers.size() <= kMostSettled;
     Prepared prepared{std::vector<Rgb>(receivers.size()), std::vector<Remainder>(tiles)};
     parallel_for(tiles, [&](std::size_t t) {
         monitor.require_more();
@@ -77,7 +83,7 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
         const auto tile =
             receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first));
         TileLight light{};
-        prepared.remainders[t] = add_known(tile, light);
+        prepared.remainders[t] = add_known(tile, settles, light);
         settle_one_by_one(tile, prepared.remainders[t], light);
         // The tree chooses for surfaces.
         prepared.remainders[t].points = !exact_points && std::ranges::none_of(tile, &Receiver::is_body);
@@ -88,7 +94,7 @@ DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
 }
 
 auto DirectLight::add_certain(std::span<const Receiver> tile, TileLight& light) const -> Remainder {
-    Remainder remainder = add_known(tile, light);
+    Remainder remainder = add_known(tile, false, light);
     remainder.points = points_.size() > kFewPoints;
     if (!remainder.points) add_points(tile, light);
     return remainder;
@@ -104,19 +110,40 @@ std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const lights::LitPoin
     return openings_[lamp - lamps_.size()].illuminance_lx(at);
 }
 
+/// Of all of the lamp, or of a surface without closed form: 0 only where that gives no light.
+double DirectLight::rough_lx(std::size_t lamp, const lights::LitPoint& at) const {
+    if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at).luminance();
+    const std::size_t number =
+        lamp < lamp_count() ? of_openings_[lamp - lamps_.size()] : surfaces_[lamp - lamp_count()];
+    return lights_.rough_illuminance_lx(number, at.position, at.normal);
+}
+
 std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const lights::LitPoint& at,
                                                    math::SampleStream& stream) const {
     if (lamp < lamps_.size()) return lamps_[lamp].sample(at, stream);
-    return openings_[lamp - lamps_.size()].sample(at, stream);
+    if (lamp < lamp_count()) return openings_[lamp - lamps_.size()].sample(at, stream);
+    const auto incident =
+        lights_.sample_incident(surfaces_[lamp - lamp_count()], {at.position, at.normal}, stream.next_two());
+    return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
+}
+
+DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, bool settles,
+                                              TileLight& light) const {
+    Remainder remainder;
+    remainder.chooses_by_tree =
+        has_many_lamps_ && !settles &&
+        std::ranges::any_of(tile, [&](const Receiver& receiver) { return has_closed_form(receiver); });
+    for (const Receiver& receiver : tile)
+        remainder.by_directions |=
+            samples_all(receiver, remainder) ? lights_.has_visible_lights() : !others_.empty();
+    if (!has_many_lamps_) add_few_lamps(tile, remainder, light);
+    if (settles) settle_many_lamps(tile, remainder, light);
+    return remainder;
 }
 
 /// Uniform lamps that are seen for certain; the others, unless they give no light, remain.
-DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, TileLight& light) const {
-    Remainder remainder;
-    for (const Receiver& receiver : tile) {
-        remainder.by_directions |=
-            has_closed_form(receiver) ? !others_.empty() : lights_.has_visible_lights();
-    }
+void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remainder,
+                                TileLight& light) const {
     for (std::size_t l = 0; l < lamps_.size(); ++l) {
         std::array<Rgb, kPacketWidth> whole_lx{};
         std::array<Vec3, kPacketWidth> lit;
@@ -143,22 +170,24 @@ DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, Ti
                 remainder.lamps[i] |= 1u << (lamps_.size() + o);
         }
     }
-    return remainder;
 }
 
 /// From one receiver the shaft to a lamp is narrower than from all of them, and one face may hide the lamp.
 /// The light of openings that are seen for certain is integrated here.
+std::optional<Rgb> DirectLight::settled_lx(std::size_t lamp, const Receiver& receiver) const {
+    const LampHull& hull = hull_of(lamp);
+    if (hull.is_hidden_from(receiver.lifted(), scene_, caster_)) return Rgb{};
+    if (!hull.is_seen_from(std::span(&receiver.lifted(), 1), *shafts_)) return std::nullopt;
+    return whole_lx(lamp, lit_point(receiver));
+}
+
 void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder,
                                     TileLight& light) const {
     for (std::size_t i = 0; i < tile.size(); ++i) {
-        for (std::size_t l = 0; l < lamp_count(); ++l) {
+        for (std::size_t l = 0; remainder.lamps[i] != 0 && l < lamp_count(); ++l) {
             const std::uint32_t bit = 1u << l;
             if ((remainder.lamps[i] & bit) == 0) continue;
-            std::optional<Rgb> received_lx;
-            if (hull_of(l).is_hidden_from(tile[i].lifted(), scene_, caster_))
-                received_lx = Rgb{};
-            else if (hull_of(l).is_seen_from(std::span(&tile[i].lifted(), 1), *shafts_))
-                received_lx = whole_lx(l, lit_point(tile[i]));
+            const auto received_lx = settled_lx(l, tile[i]);
             if (!received_lx) continue;
             remainder.lamps[i] &= ~bit;
             light[i] += *received_lx * *tile[i].constant_response();
@@ -166,12 +195,46 @@ void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& r
     }
 }
 
+void DirectLight::settle_many_lamps(std::span<const Receiver> tile, Remainder& remainder,
+                                    TileLight& light) const {
+    std::vector<OpenLamps> open(tile.size());
+    for (std::size_t l = 0; l < lamp_count() + surfaces_.size(); ++l) {
+        std::array<double, kPacketWidth> rough{};
+        std::array<Vec3, kPacketWidth> lit;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < tile.size(); ++i) {
+            if (!has_closed_form(tile[i])) continue;
+            rough[i] = rough_lx(l, lit_point(tile[i]));
+            if (rough[i] > 0) lit[count++] = tile[i].lifted();
+        }
+        const bool may_settle = count > 0 && l < lamp_count();
+        const bool all_see_it = may_settle && hull_of(l).is_seen_from(std::span(lit).first(count), *shafts_);
+        for (std::size_t i = 0; i < tile.size(); ++i) {
+            if (!(rough[i] > 0)) continue;
+            std::optional<Rgb> received_lx;
+            if (all_see_it)
+                received_lx = whole_lx(l, lit_point(tile[i]));
+            else if (may_settle)
+                received_lx = settled_lx(l, tile[i]);
+            if (received_lx) {
+                light[i] += *received_lx * *tile[i].constant_response();
+            } else {
+                open[i].add(l, rough[i]);
+            }
+        }
+    }
+    for (OpenLamps& of_receiver : open) of_receiver.finish();
+    if (std::ranges::any_of(open, [](const OpenLamps& lamps) { return lamps.choices() > 0; }))
+        remainder.open = std::move(open);
+}
+
 void DirectLight::add_sample(std::span<const Receiver> tile, const Remainder& remainder,
                              std::span<math::SampleStream> streams, TileLight& light) const {
     if (remainder.has_lamps()) {
         for (std::size_t l = 0; l < lamp_count(); ++l) add_shadowed(tile, l, remainder, streams, light);
     }
-    if (remainder.by_directions) add_by_directions(tile, streams, light);
+    if (!remainder.open.empty()) add_chosen_lamps(tile, remainder, streams, light);
+    if (remainder.by_directions) add_by_directions(tile, remainder, streams, light);
     if (remainder.points) add_chosen_points(tile, streams[0], light);
 }
 
@@ -187,17 +250,36 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
     shadow_rays.trace(caster_, light);
 }
 
-/// Lights that add_known() leaves out.
-void DirectLight::add_by_directions(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
-                                    TileLight& light) const {
-    for (std::size_t i = 0; i < tile.size(); ++i) {
-        if (samples_all(tile[i])) light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i]);
+void DirectLight::add_chosen_lamps(std::span<const Receiver> tile, const Remainder& remainder,
+                                   std::span<math::SampleStream> streams, TileLight& light) const {
+    std::array<double, kPacketWidth> first{};
+    for (std::size_t i = 0; i < tile.size(); ++i) first[i] = streams[i].next();
+    for (std::size_t choice = 0; choice < OpenLamps::kChosen; ++choice) {
+        ShadowRays shadow_rays;
+        for (std::size_t i = 0; i < tile.size(); ++i) {
+            if (choice >= remainder.open[i].choices()) continue;
+            const auto [lamp, factor] = remainder.open[i].choose(choice, first[i]);
+            if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
+                shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
+                                factor * sample->illuminance_lx * *tile[i].constant_response());
+        }
+        shadow_rays.trace(caster_, light);
     }
-    if (chooses_lamps_) return;
+}
+
+/// Lights that add_known() leaves out.
+void DirectLight::add_by_directions(std::span<const Receiver> tile, const Remainder& remainder,
+                                    std::span<math::SampleStream> streams, TileLight& light) const {
+    for (std::size_t i = 0; i < tile.size(); ++i) {
+        if (samples_all(tile[i], remainder))
+            light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i]);
+    }
+    if (remainder.chooses_by_tree) return;
     for (const std::size_t other : others_) {
         ShadowRays shadow_rays;
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            if (!samples_all(tile[i])) add_ray(tile, i, other, streams[i].next_two(), 1, shadow_rays);
+            if (!samples_all(tile[i], remainder))
+                add_ray(tile, i, other, streams[i].next_two(), 1, shadow_rays);
         }
         shadow_rays.trace(caster_, light);
     }

@@ -13,6 +13,10 @@
 // A luminaire's opening that a reading sees for certain is integrated by quadrature, once
 // (transport/direct/opening_lamp.h).
 //
+// Where lamps are many (LightSampler::chooses_extended()), readings settle those that each receiver sees for
+// certain, or not at all, and choose among the others (open_lamps.h); pictures, and readings that are too
+// many for that, choose some of all lamps by a tree.
+//
 // Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
 // kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose
 // response depends on direction, are sampled as in sample_direct_from_areas() (receiver.h).
@@ -27,6 +31,7 @@
 
 #include "base/monitor.h"
 #include "rays/shaft_query.h"
+#include "transport/direct/open_lamps.h"
 #include "transport/direct/opening_lamp.h"
 #include "transport/direct/uniform_lamp.h"
 #include "transport/receiver.h"
@@ -43,16 +48,20 @@ class DirectLight {
 
     /// The parts of a tile's light that have to be sampled.
     struct Remainder {
-        /// For each receiver, one bit for each lamp that may be partly hidden: uniform lamps, then openings.
+        /// Of few lamps: for each receiver, one bit for each that may be partly hidden: uniform lamps, then
+        /// openings.
         std::array<std::uint32_t, kPacketWidth> lamps{};
-        bool by_directions = false;  ///< lights without closed form, or receivers with gloss
-        bool points = false;         ///< point lights that are chosen by the tree
+        /// Of many lamps: for each receiver, those that may be partly hidden; empty where there are none.
+        std::vector<OpenLamps> open;
+        bool by_directions = false;    ///< lights without closed form, or receivers with gloss
+        bool chooses_by_tree = false;  ///< some of all lamps, likewise by directions
+        bool points = false;           ///< point lights that are chosen by the tree
         bool has_lamps() const {
             return std::ranges::any_of(lamps, [](std::uint32_t bits) { return bits != 0; });
         }
         /// Shadow rays of a sample, roughly; `receivers` of the tile.
         double rays(std::size_t receivers) const;
-        bool is_empty() const { return !has_lamps() && !by_directions && !points; }
+        bool is_empty() const { return !has_lamps() && open.empty() && !by_directions && !points; }
     };
     struct Prepared {
         std::vector<Rgb> known;             ///< of each receiver, exact
@@ -75,15 +84,21 @@ class DirectLight {
   private:
     struct ShadowRays;
 
-    /// Point lights times receivers up to which readings take all of them once: seconds.
-    static constexpr std::size_t kMostExact = 100'000'000;
+    /// Point lights times receivers up to which readings take all of them once: seconds. Likewise of lamps
+    /// with an area, where they are many.
+    static constexpr std::size_t kMostExact = 100'000'000, kMostSettled = 300'000;
 
     bool has_closed_form(const Receiver& receiver) const {
         return receiver.constant_response() && !receiver.is_body();
     }
     /// Whether samples of all lights and of the response are weighted together.
-    bool samples_all(const Receiver& receiver) const { return !has_closed_form(receiver) || chooses_lamps_; }
-    Remainder add_known(std::span<const Receiver> tile, TileLight& light) const;
+    bool samples_all(const Receiver& receiver, const Remainder& remainder) const {
+        return !has_closed_form(receiver) || remainder.chooses_by_tree;
+    }
+    /// `settles`: each receiver's many lamps are looked at.
+    Remainder add_known(std::span<const Receiver> tile, bool settles, TileLight& light) const;
+    void add_few_lamps(std::span<const Receiver> tile, Remainder& remainder, TileLight& light) const;
+    void settle_many_lamps(std::span<const Receiver> tile, Remainder& remainder, TileLight& light) const;
     void settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder, TileLight& light) const;
     void add_points(std::span<const Receiver> tile, TileLight& light) const;
     void add_point(std::span<const Receiver> tile, std::size_t point, double factor, TileLight& light) const;
@@ -92,12 +107,17 @@ class DirectLight {
     std::size_t lamp_count() const { return lamps_.size() + openings_.size(); }
     const LampHull& hull_of(std::size_t lamp) const;
     std::optional<Rgb> whole_lx(std::size_t lamp, const lights::LitPoint& at) const;
+    double rough_lx(std::size_t lamp, const lights::LitPoint& at) const;
+    /// What one receiver gets of a lamp, where that is certain.
+    std::optional<Rgb> settled_lx(std::size_t lamp, const Receiver& receiver) const;
     std::optional<LampSample> sample_lamp(std::size_t lamp, const lights::LitPoint& at,
                                           math::SampleStream& stream) const;
     void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
                       std::span<math::SampleStream> streams, TileLight& light) const;
-    void add_by_directions(std::span<const Receiver> tile, std::span<math::SampleStream> streams,
-                           TileLight& light) const;
+    void add_chosen_lamps(std::span<const Receiver> tile, const Remainder& remainder,
+                          std::span<math::SampleStream> streams, TileLight& light) const;
+    void add_by_directions(std::span<const Receiver> tile, const Remainder& remainder,
+                           std::span<math::SampleStream> streams, TileLight& light) const;
     void add_ray(std::span<const Receiver> tile, std::size_t lane, std::size_t light,
                  const std::array<double, 2>& u, double factor, ShadowRays& shadow_rays) const;
 
@@ -106,10 +126,12 @@ class DirectLight {
     const LightSampler& lights_;
     std::vector<UniformLamp> lamps_;
     std::vector<OpeningLamp> openings_;
-    std::vector<std::size_t> points_, others_;  ///< the numbers of other lights
+    /// Numbers of lights: of the openings, of surfaces without closed form where lamps are many, of point
+    /// lights, and of all others.
+    std::vector<std::size_t> of_openings_, surfaces_, points_, others_;
     LightTree tree_of_points_;
     std::optional<rays::ShaftQuery> shafts_;
-    bool chooses_lamps_ = false;  ///< extended lights are so many that some are chosen
+    bool has_many_lamps_;  ///< so many that some are chosen
 };
 
 }  // namespace stilb::transport

@@ -82,10 +82,7 @@ Rgb OpeningLamp::sum_lx(const lights::LitPoint& at, const math::GaussLegendre& r
 
 std::optional<LampSample> OpeningLamp::sample(const lights::LitPoint& at, math::SampleStream& stream) const {
     const auto incident = emitter_.sample_incident({at.position, at.normal}, stream.next_two());
-    if (!incident) return std::nullopt;
-    const double cosine = dot(incident->direction, at.normal);
-    if (!(cosine > 0) || !(incident->normal_illuminance_lx.max() > 0)) return std::nullopt;
-    return LampSample{incident->source_point, cosine * incident->normal_illuminance_lx};
+    return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
 }
 
 }  // namespace stilb::transport

@@ -43,6 +43,7 @@ class BoundedDirect {
         rays::Hit hit;
         Vec3 direction;
         Rgb flux_lm;
+        double favour = 1;  ///< as transport::EmittedParticle's
     };
     /// Nothing where it is not close to its light.
     std::optional<Particle> sample_particle(math::SampleStream& stream) const;

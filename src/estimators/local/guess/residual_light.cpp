@@ -24,6 +24,9 @@ constexpr std::uint32_t kBranches = 4;
 /// not be rare.
 constexpr double kFloor = 0.1;
 constexpr double kEvenShare = 0.1;
+/// Sides get favour (LightVertex::favour) where the pilot finds less than this share of what they get evenly:
+/// those of a room whose lamps are much weaker than those of other rooms.
+constexpr double kWeakSide = 1e-3;
 /// Points of each side at which r is estimated for that.
 constexpr std::uint64_t kPilots = 2;
 
@@ -87,8 +90,12 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
     for (std::size_t i = 0; i < sides_.size(); ++i)
         sum += weights[i], area_m2 += double{patches.areas_m2[patches.patch_of(sides_[i])]};
     const double evenly = sum > 0 ? kEvenShare * sum / area_m2 : 1;
-    for (std::size_t i = 0; i < sides_.size(); ++i)
-        weights[i] += evenly * double{patches.areas_m2[patches.patch_of(sides_[i])]};
+    favours_.assign(sides_.size(), 1);
+    for (std::size_t i = 0; i < sides_.size(); ++i) {
+        const double even = evenly * double{patches.areas_m2[patches.patch_of(sides_[i])]};
+        if (weights[i] > 0 && weights[i] < kWeakSide * even) favours_[i] = even / weights[i];
+        weights[i] += even;
+    }
     if (!sides_.empty()) by_residual_ = math::DiscreteDistribution(weights);
 }
 
@@ -244,14 +251,18 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const materials::SplitMaterial& parts = guess_.material(side);
     const auto& [position, lifted, normal] = start.point;
     const Rgb missing = start.missing_lx * per_density, arriving = start.arrival.illuminance_lx * per_density;
+    const double favour = favours_[choice.index];
     const Rgb diffuse = missing * parts.diffuse_reflectance(), gloss = arriving * parts.gloss_reflectance();
     // The direction of the light that comes in does not matter for the diffuse part.
     if (diffuse != Rgb{})
-        nodes.push_back({position, lifted, normal, normal, normal, &parts.diffuse, missing, 1});
-    if (gloss != Rgb{})
         nodes.push_back(
-            {position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving, 1});
+            {position, lifted, normal, normal, normal, &parts.diffuse, missing, 1, false, favour});
+    if (gloss != Rgb{})
+        nodes.push_back({position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving,
+                         1, false, favour});
+    const std::size_t own = nodes.size();
     branch_out(start, parts, missing, arriving, stream, nodes);
+    for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour = favour;
 }
 
 /// Goes on from a start with some paths, each by one of the parts of the material.
@@ -284,8 +295,11 @@ void ResidualLight::branch_out(const Start& start, const materials::SplitMateria
 
 void ResidualLight::trace_particle(math::SampleStream stream,
                                    std::vector<transport::LightVertex>& nodes) const {
-    if (const auto particle = direct_.sample_particle(stream))
-        walk(particle->hit, particle->direction, particle->flux_lm, stream, nodes);
+    const auto particle = direct_.sample_particle(stream);
+    if (!particle) return;
+    const std::size_t own = nodes.size();
+    walk(particle->hit, particle->direction, particle->flux_lm, stream, nodes);
+    for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour = particle->favour;
 }
 
 /// Vertices from the surface on that the flux meets.

@@ -85,6 +85,7 @@ class ResidualLight {
     bool has_light_for_light_paths_only_;
     std::vector<std::uint32_t> sides_;        ///< that reflect light and are not traced
     math::DiscreteDistribution by_residual_;  ///< over `sides_`
+    std::vector<double> favours_;             ///< LightVertex::favour of their starts
 };
 
 }  // namespace stilb::estimators

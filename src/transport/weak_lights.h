@@ -1,0 +1,40 @@
+// Lights that are much weaker than others get more samples than their share of the light: they may be the
+// only ones that reach a reading, like an exit sign in a closed stairwell beside a hall, or beside the sky.
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "lights/light_kind.h"
+#include "math/random.h"
+#include "rays/ray_caster.h"
+
+namespace stilb::transport {
+
+/// Factors of the lights' shares of emitted particles, so that those of each strength and all weaker ones
+/// together get about kWeakShare of them, or more. 1 for lights that are comparable with the strongest one.
+/// `weights`: not negative.
+std::vector<double> emission_favours(std::span<const double> weights);
+
+/// What favours in the choice among lights at a point depend on.
+struct LightsAtPoints {
+    std::span<const double> flux_lm;  ///< 0 for lights that need no favour, such as light from infinity
+    /// A particle of a light.
+    std::function<lights::Emission(std::size_t light, math::SampleStream&)> emit;
+    /// Its estimated illuminance of a surface.
+    std::function<double(std::size_t light, const Vec3& position, const Vec3& normal)> rough_lx;
+    std::size_t count = 0;  ///< of all lights
+    bool has_outside = false;
+};
+/// Likewise where the light of each strength arrives: half of its first surfaces choose it, or one that is
+/// not stronger, with a probability of about kWeakChoice or more. Particles of some lights of each strength
+/// find these surfaces: surfaces that hide the stronger lights are not asked for.
+std::vector<double> choice_favours(const LightsAtPoints& lights, const rays::RayCaster& caster);
+
+/// A fourth of the choices costs other lights little, because shadow rays are many, and the variance of their
+/// light grows by a third at most; light paths are dearer.
+inline constexpr double kWeakShare = 0.1, kWeakChoice = 0.25;
+
+}  // namespace stilb::transport

@@ -1,0 +1,100 @@
+// Lamps that are much weaker than others which do not reach the readings.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "run/run.h"
+#include "support/scene_builder.h"
+
+namespace stilb::run {
+namespace {
+
+Sensor below(const Vec3& lamp, double radius_m) {
+    return {"below", IlluminancePoints{{{lamp - Vec3{0, 0, radius_m}, {0, 0, 1}}}}};
+}
+
+statistics::Estimate measured(const Scene& scene, const Sensor& sensor, const char* method,
+                              std::int64_t paths, std::uint64_t seed) {
+    RunOptions options;
+    options.method = method;
+    options.paths = paths;
+    options.seed = seed;
+    return measure(scene, {&sensor, 1}, options).sensors[0].readings[0].estimate;
+}
+
+/// The mean of some seeds is right, its error is known, and the error is not 0.
+void expect_value(const Scene& scene, const Sensor& sensor, const char* method, std::int64_t paths,
+                  double value_lx) {
+    constexpr int seeds = 8;
+    double sum_lx = 0, squares = 0;
+    int missed = 0;
+    for (int seed = 1; seed <= seeds; ++seed) {
+        const auto found = measured(scene, sensor, method, paths, static_cast<std::uint64_t>(seed));
+        EXPECT_GT(found.standard_error, 0) << method;
+        sum_lx += found.value;
+        squares += found.standard_error * found.standard_error;
+        missed += found.lower > value_lx || found.upper < value_lx;
+    }
+    EXPECT_LT(std::abs(sum_lx - seeds * value_lx), 4 * std::sqrt(squares)) << method << sum_lx / seeds;
+    EXPECT_LE(missed, 3) << method;
+}
+
+/// A closed ball with a lamp in its middle: illuminance flux / (4 pi r^2) / (1 - reflectance).
+TEST(WeakLamp, InABallBesideOneWithAStrongLamp) {
+    for (const double strong : {1e2, 1e3, 1e9}) {
+        Scene scene;
+        add_object(scene, Sphere{{0, 0, 0}, 1}, diffuse(0.5));
+        add_object(scene, Sphere{{3, 0, 0}, 1}, diffuse(0.5));
+        add_point_light(scene, {0, 0, 0}, Rgb::grey(strong / (4 * kPi)));
+        add_point_light(scene, {3, 0, 0}, Rgb::grey(1 / (4 * kPi)));
+        const Sensor sensor = below({3, 0, 0}, 1);
+        for (const char* method : {"auto", "path", "local", "double-local"})
+            expect_value(scene, sensor, method, 16384, 2 / (4 * kPi));
+    }
+}
+
+TEST(WeakLamp, InAClosedBallBelowTheSky) {
+    Scene scene;
+    add_object(scene, Disk{{0, 0, -1}, {0, 0, 1}, 300}, diffuse(0.7));
+    add_object(scene, Sphere{{0, 0, 1}, 1.5}, diffuse(0.7));
+    add_environment(scene, Rgb::grey(20000));
+    add_point_light(scene, {0, 0, 1}, Rgb::grey(20 / (4 * kPi)));
+    const Sensor sensor = below({0, 0, 1}, 1.5);
+    for (const char* method : {"auto", "path", "local"})
+        expect_value(scene, sensor, method, 8192, 20 / (4 * kPi * 2.25) / 0.3);
+}
+
+/// Three halls, each lamp a thousandth of the next, and many of them: every strength has its share.
+TEST(WeakLamp, OfThreeStrengths) {
+    Scene scene;
+    const std::array<double, 3> flux_lm{1, 1e3, 1e6};
+    for (std::size_t ball = 0; ball < 3; ++ball) {
+        const Vec3 center{3.0 * static_cast<double>(ball), 0, 0};
+        add_object(scene, Sphere{center, 1}, diffuse(0.5));
+        // In the middle within a micrometre.
+        for (int i = 0; i < 15; ++i)
+            add_point_light(scene, center + Vec3{0, 0, 1e-7 * i}, Rgb::grey(flux_lm[ball] / 15 / (4 * kPi)));
+    }
+    for (const char* method : {"auto", "path", "local"})
+        expect_value(scene, below({0, 0, 0}, 1), method, 16384, 2 / (4 * kPi));
+}
+
+/// Equal replicates prove nothing where samples could have found light: the interval reaches up.
+TEST(WeakLamp, ThatNoSampleFoundIsAllowedFor) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, Black{});
+    add_object(scene, Rectangle{{0.1, 1.999, 1.499}, {0, 0.002, 0}, {0, 0, 0.002}}, diffuse(0.9));
+    add_point_light(scene, {2, 2, 2.5}, Rgb::grey(100));
+    const Sensor sensor{"desk", IlluminancePoints{{{{2, 2, 0.8}, {0, 0, 1}}}}};
+    const auto found = measured(scene, sensor, "path", 32, 1);
+    const double direct_lx = 100 / (1.7 * 1.7);
+    EXPECT_NEAR(found.value, direct_lx, 1e-6 * direct_lx);
+    EXPECT_GT(found.upper, direct_lx);
+    // Without reflection nothing is missed.
+    scene.materials[1].material = Black{};
+    const auto black = measured(scene, sensor, "path", 32, 1);
+    EXPECT_EQ(black.upper, black.lower);
+}
+
+}  // namespace
+}  // namespace stilb::run
