@@ -45,7 +45,7 @@ class Enclosures {
     /// only one of two boxes that share a wall, and other objects by the parity of the hits along three rays
     /// into the hemisphere of the probe's direction, by majority.
     Enclosure enclosure_of(const ProbeRay& probe_ray) const;
-    /// The enclosures where each light's rays start: one for points, one for every component of an emitting
+    /// The enclosures where each light's rays start: one for points, those around the parts of an emitting
     /// object, the outside of all components for light from infinity.
     const std::vector<std::vector<Enclosure>>& of_lights() const { return of_lights_; }
     /// Whether a light's rays start there.
@@ -54,7 +54,7 @@ class Enclosures {
     /// The connected components of every object; a mesh is closed where the lamps that were cut out of it
     /// close it.
     const std::vector<geometry::ConnectedComponents>& components() const { return components_; }
-    /// A start of the light's rays from each of its components.
+    /// Starts of the light's rays: the first from its first component, others from all of its parts.
     std::vector<ProbeRay> probe_rays_of(const Light& light) const;
 
   private:

@@ -16,6 +16,10 @@ namespace {
 /// Unit vectors in general position: along no axis, diagonal or symmetry that rooms have.
 constexpr std::array<Vec3, 3> kDirections{
     {{0.2673, 0.5345, 0.8018}, {-0.6851, 0.2114, 0.6971}, {0.4412, -0.7727, 0.4565}}};
+/// Directions all around, the first upwards.
+constexpr std::array<Vec3, 6> kAround{{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
+/// Where probes of a disk start, beside its middle: at this share of the radius.
+constexpr double kNearRim = 0.8;
 /// Rays through more surfaces than this are ignored.
 constexpr int kMostCrossings = 10'000;
 /// Lights whose visibility is tested before the enclosure of a point is determined.
@@ -27,22 +31,29 @@ ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
     return {position + caster.offset_m(position, size_m) * normal, normal};
 }
 
-/// One probe from every component, off its front.
+/// Probes off the front: one from every component, and more from other parts, because a lamp may stand half
+/// in a wall.
 struct ProbeRaysOfShape {
     const geometry::ConnectedComponents& components;
     const rays::RayCaster& caster;
 
+    static constexpr std::size_t kMoreOfMesh = 8;
+
     std::vector<ProbeRay> operator()(const Mesh& mesh) const {
         std::vector<ProbeRay> probe_rays;
-        for (std::size_t t = 0; t < mesh.triangles.size(); ++t) {
-            if (components.of_triangle[t] != probe_rays.size())
-                continue;  // components are numbered by their first triangles
-            const auto [i, j, k] = mesh.triangles[t];
-            const Vec3 &a = mesh.vertices[i], &b = mesh.vertices[j], &c = mesh.vertices[k];
+        const std::size_t count = mesh.triangles.size();
+        const auto add = [&](std::size_t triangle) {
+            const auto [a, b, c] = mesh.corners_of(triangle);
             const Vec3 normal = normalized(cross(b - a, c - a));
             probe_rays.push_back(
                 probe_ray_off((a + b + c) / 3, normal, length(b - a) + length(c - a), caster));
+        };
+        for (std::size_t t = 0; t < count; ++t) {
+            // Components are numbered by their first triangles.
+            if (components.of_triangle[t] == probe_rays.size()) add(t);
         }
+        const std::size_t more = std::min(count, kMoreOfMesh);
+        for (std::size_t i = 0; i < more; ++i) add((2 * i + 1) * count / (2 * more));
         return probe_rays;
     }
     std::vector<ProbeRay> operator()(const Instance& instance) const {
@@ -53,15 +64,28 @@ struct ProbeRaysOfShape {
     }
     std::vector<ProbeRay> operator()(const Box& box) const { return (*this)(triangulated(box)); }
     std::vector<ProbeRay> operator()(const Sphere& sphere) const {
-        const Vec3 up{0, 0, 1};
-        return {probe_ray_off(sphere.center + sphere.radius * up, up, sphere.radius, caster)};
+        std::vector<ProbeRay> probe_rays;
+        for (const Vec3& normal : kAround)
+            probe_rays.push_back(
+                probe_ray_off(sphere.center + sphere.radius * normal, normal, sphere.radius, caster));
+        return probe_rays;
     }
     std::vector<ProbeRay> operator()(const Harmonics& harmonics) const {
-        const Vec3 up{0, 0, 1}, top = harmonics.point_towards(up);
-        return {probe_ray_off(top, harmonics.normal_towards(up), length(top - harmonics.center), caster)};
+        std::vector<ProbeRay> probe_rays;
+        for (const Vec3& direction : kAround) {
+            const Vec3 point = harmonics.point_towards(direction);
+            probe_rays.push_back(probe_ray_off(point, harmonics.normal_towards(direction),
+                                               length(point - harmonics.center), caster));
+        }
+        return probe_rays;
     }
     std::vector<ProbeRay> operator()(const Disk& disk) const {
-        return {probe_ray_off(disk.center, disk.normal, disk.radius, caster)};
+        std::vector<ProbeRay> probe_rays{probe_ray_off(disk.center, disk.normal, disk.radius, caster)};
+        const Frame frame = Frame::around(disk.normal);
+        for (const Vec3& along : {frame.u, -frame.u, frame.v, -frame.v})
+            probe_rays.push_back(probe_ray_off(disk.center + kNearRim * disk.radius * along, disk.normal,
+                                               disk.radius, caster));
+        return probe_rays;
     }
 };
 
@@ -82,8 +106,10 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
         if (location_of(light) == stilb::LightLocation::infinity)
             enclosures.push_back({});  // outside of all components
         for (const ProbeRay& probe_ray : probe_rays_of(light)) {
-            enclosures.push_back(voted_enclosure(probe_ray));
-            if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, enclosures.back()});
+            const Enclosure enclosure = voted_enclosure(probe_ray);
+            if (std::ranges::find(enclosures, enclosure) != enclosures.end()) continue;
+            enclosures.push_back(enclosure);
+            if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, enclosure});
         }
     }
 }

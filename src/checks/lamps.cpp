@@ -17,14 +17,11 @@ namespace {
 
 // The same lamp twice.
 
-/// The middle of a light that has one and the same distribution as others of its kind: not of area lights,
-/// whose objects are compared with each other (overlaps.cpp).
 std::optional<Vec3> middle_of(const Light& light, const Scene& scene) {
     if (const auto* luminaire = lights::luminaire_of(light)) return luminaire->position;
     if (const auto origin = lights::point_origin(light)) return origin->position;
     const auto surface = lights::uniform_emission(light);
-    const auto* sphere = surface ? std::get_if<Sphere>(&scene.object(surface->object).shape) : nullptr;
-    return sphere ? std::optional(sphere->center) : std::nullopt;
+    return surface ? std::optional(bounds_of(scene.object(surface->object).shape).middle()) : std::nullopt;
 }
 
 /// The middle in whole millimetres.
@@ -40,12 +37,17 @@ bool have_one_colour(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(difference[0]), std::abs(difference[1]), std::abs(difference[2])}) < same;
 }
 
-bool have_one_distribution(const Light& a, const Light& b, const Scene& scene) {
+/// Of surfaces, closer than `tolerance_m`.
+bool have_one_distribution(const Light& a, const Light& b, const Scene& scene, double tolerance_m) {
     constexpr double same_cosine = 1 - 1e-6;
     if (a.source.index() != b.source.index()) return false;
     const Luminaire *first = lights::luminaire_of(a), *second = lights::luminaire_of(b);
     if (first && (first->solid != second->solid || dot(first->nadir, second->nadir) < same_cosine ||
                   dot(first->c0, second->c0) < same_cosine))
+        return false;
+    const auto surface = lights::uniform_emission(a), other = lights::uniform_emission(b);
+    if (surface &&
+        !coincide(scene.object(surface->object).shape, scene.object(other->object).shape, tolerance_m))
         return false;
     return have_one_colour(flux_lm(scene, a), flux_lm(scene, b));
 }
@@ -54,11 +56,13 @@ bool have_one_distribution(const Light& a, const Light& b, const Scene& scene) {
 using Alike = std::vector<std::string>;
 
 /// The lights of one place that are alike, where there are several.
-std::vector<Alike> alike_among(const std::vector<const Light*>& in_one_place, const Scene& scene) {
+std::vector<Alike> alike_among(const std::vector<const Light*>& in_one_place, const Scene& scene,
+                               double tolerance_m) {
     std::vector<std::pair<const Light*, Alike>> kinds;
     for (const Light* light : in_one_place) {
-        const auto kind = std::ranges::find_if(
-            kinds, [&](const auto& known) { return have_one_distribution(*known.first, *light, scene); });
+        const auto kind = std::ranges::find_if(kinds, [&](const auto& known) {
+            return have_one_distribution(*known.first, *light, scene, tolerance_m);
+        });
         if (kind == kinds.end()) {
             kinds.push_back({light, {light->name}});
         } else {
@@ -72,7 +76,7 @@ std::vector<Alike> alike_among(const std::vector<const Light*>& in_one_place, co
     return several;
 }
 
-std::vector<std::string> duplicate_warnings(const Scene& scene) {
+std::vector<std::string> duplicate_warnings(const Scene& scene, const rays::RayCaster& caster) {
     std::map<std::array<long long, 3>, std::vector<const Light*>> by_place;
     for (const Light& light : scene.lights) {
         if (const auto middle = middle_of(light, scene)) by_place[millimetres(*middle)].push_back(&light);
@@ -80,15 +84,16 @@ std::vector<std::string> duplicate_warnings(const Scene& scene) {
     std::string first;
     std::size_t more = 0;
     for (const auto& [place, in_one_place] : by_place) {
-        for (const Alike& names : alike_among(in_one_place, scene)) {
+        const auto [x, y, z] = place;
+        const Vec3 middle{1e-3 * static_cast<double>(x), 1e-3 * static_cast<double>(y),
+                          1e-3 * static_cast<double>(z)};
+        for (const Alike& names : alike_among(in_one_place, scene, caster.offset_m(middle, 0))) {
             if (!first.empty()) {
                 ++more;
                 continue;
             }
-            const auto [x, y, z] = place;
             first = fmt::format("lights {} are alike and in one place, ({:g}, {:g}, {:g})", list_of(names),
-                                1e-3 * static_cast<double>(x), 1e-3 * static_cast<double>(y),
-                                1e-3 * static_cast<double>(z));
+                                middle.x, middle.y, middle.z);
         }
     }
     if (first.empty()) return {};
@@ -171,7 +176,7 @@ std::vector<std::string> whole_lamp_warnings(const Scene& scene, const rays::Ray
 std::vector<std::string> lamp_warnings(const Scene& scene, const rays::RayCaster& caster,
                                        const std::vector<geometry::ConnectedComponents>& components,
                                        std::span<const Sensor> sensors) {
-    std::vector<std::string> warnings = duplicate_warnings(scene);
+    std::vector<std::string> warnings = duplicate_warnings(scene, caster);
     for (std::string& warning : whole_lamp_warnings(scene, caster, components, sensors))
         warnings.push_back(std::move(warning));
     return warnings;

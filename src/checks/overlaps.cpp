@@ -58,6 +58,13 @@ class OverlapLight {
         }
     }
 
+    /// Lamps in one place, whose light adds up: lamps.cpp warns of those that are alike.
+    bool are_lamps_in_one_place(const Scene& scene, const Overlap& overlap) const {
+        return is_lamp_[index_of(overlap.first)] && is_lamp_[index_of(overlap.second)] &&
+               coincide(scene.object(overlap.first).shape, scene.object(overlap.second).shape,
+                        caster_.offset_m(overlap.position, 0));
+    }
+
     bool is_lamp_on(const Overlap& overlap) const {
         return is_lamp_[index_of(overlap.first)] && !is_lamp_[index_of(overlap.second)];
     }
@@ -127,6 +134,7 @@ std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCas
     const OverlapLight light(scene, caster, sensors);
     std::vector<std::string> of_lamps, undecided;
     for (const auto& [objects, of_pair] : by_objects) {
+        if (light.are_lamps_in_one_place(scene, of_pair.front())) continue;
         const auto lit = std::ranges::find_if(of_pair, [&](const Overlap& o) { return light.matters(o); });
         if (lit == of_pair.end()) continue;
         const Found found{of_pair.size(), lit->position};

@@ -110,24 +110,25 @@ struct FaultyLights {
     std::vector<std::string> names;
 };
 
-std::string text_of_lights(const FaultyLights& lights, const Scene& scene) {
+/// Lamps of other rooms are no mistake, but the program does not know rooms.
+std::string text_of_lights(const FaultyLights& lights, const Scene& scene, bool are_cameras) {
     const bool is_one = lights.names.size() == 1;
     const std::string subject =
         fmt::format("{} {} {}", is_one ? "light" : "lights", list_of(lights.names), is_one ? "is" : "are");
-    const std::string_view its = is_one ? "its" : "their", it = is_one ? "it" : "them";
+    const std::string_view its = is_one ? "its" : "their", it = is_one ? "it" : "them",
+                           do_light = is_one ? "it lights" : "they light";
     const std::string& object = scene.object(lights.object).name;
     switch (lights.fault) {
         case Fault::shut_in:
             return fmt::format(
-                "{} inside object \"{}\": {} light cannot get out to any sensor. Move {}, or open the "
-                "object.",
-                subject, object, its, it);
+                "{} inside object \"{}\": {} light cannot get out to {}. Unless {} another room, move {}, or "
+                "open the object.",
+                subject, object, its, are_cameras ? "what the camera sees" : "any sensor", do_light, it);
         case Fault::shut_out:
             return fmt::format(
-                "{} not inside object \"{}\", which encloses all sensors: {} light cannot reach them. Move "
-                "{} "
-                "inside, or open the object.",
-                subject, object, its, it);
+                "{} not inside object \"{}\", which encloses {}: {} light cannot get in. Unless {} another "
+                "room, move {} inside, or open the object.",
+                subject, object, are_cameras ? "the camera" : "all sensors", its, do_light, it);
         case Fault::turned_round:
             break;
     }
@@ -171,7 +172,10 @@ class PlacementCheck {
             if (!lights_explain_all) warnings.push_back(std::move(*fault));
         }
         warnings.insert(warnings.end(), of_sky_.begin(), of_sky_.end());
-        for (const FaultyLights& lights : faulty_) warnings.push_back(text_of_lights(lights, scene_));
+        const bool are_cameras =
+            std::ranges::all_of(sensors_, [](const Sensor& sensor) { return sensor.camera() != nullptr; });
+        for (const FaultyLights& lights : faulty_)
+            warnings.push_back(text_of_lights(lights, scene_, are_cameras));
         return warnings;
     }
 

@@ -137,6 +137,8 @@ class ReachCheck {
     ReachCheck(const Scene& scene, const rays::RayCaster& caster, std::span<const Sensor> sensors,
                const Explained& explained)
         : scene_(scene), caster_(caster), explained_(explained), all_places_(scene) {
+        are_cameras_ =
+            std::ranges::all_of(sensors, [](const Sensor& sensor) { return sensor.camera() != nullptr; });
         std::vector<const Sensor*> unexplained;
         for (std::size_t i = 0; i < sensors.size() && unexplained.size() < kStarts; ++i) {
             if (!explained.sensors[i]) unexplained.push_back(&sensors[i]);
@@ -168,13 +170,15 @@ class ReachCheck {
         }
         const bool all_are_judged = judged == scene_.lights.size();
         if (all_are_judged && !dark.empty() && dark.size() == unexplained_lights())
-            return {fmt::format("no light reaches any sensor{}.", in_the_way)};
+            return {fmt::format("no light reaches {}{}.",
+                                are_cameras_ ? "what the camera sees" : "any sensor", in_the_way)};
         std::vector<std::string> warnings;
         if (!dark.empty()) {
             const bool is_one = dark.size() == 1;
-            warnings.push_back(fmt::format("{} {}: none of {} light reaches a sensor{}.",
+            warnings.push_back(fmt::format("{} {}: none of {} light reaches {}{}.",
                                            is_one ? "light" : "lights", list_of(dark, all_are_judged),
-                                           is_one ? "its" : "their", in_the_way));
+                                           is_one ? "its" : "their",
+                                           are_cameras_ ? "what the camera sees" : "a sensor", in_the_way));
         }
         if (all_are_judged) add_dark_sensors(warnings);
         return warnings;
@@ -289,7 +293,7 @@ class ReachCheck {
     std::vector<Surroundings> around_;  ///< by sensor
     Trail all_places_;                  ///< of all sensors
     std::vector<ObjectId> lamps_;       ///< whose light walks may meet
-    bool has_outside_ = false;
+    bool has_outside_ = false, are_cameras_ = false;
     std::size_t connections_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "geometry/mesh_part.h"
+#include "geometry/repeated_faces.h"
 
 namespace stilb::scene {
 namespace {
@@ -34,6 +35,19 @@ ObjectId cut_out(Scene& scene, ObjectId object, std::span<const std::uint32_t> t
     whole = part_of(whole, geometry::others(geometry::stored_mesh(whole.shape)->triangles.size(), triangles));
     scene.objects.push_back(std::move(lamp));
     return ObjectId{static_cast<std::uint32_t>(scene.objects.size() - 1)};
+}
+
+std::size_t remove_repeated_faces(Object& lamp) {
+    const Mesh* const mesh = geometry::stored_mesh(lamp.shape);
+    if (mesh == nullptr) return 0;
+    std::vector<std::uint32_t> repeated;
+    for (const geometry::RepeatedFace& face : geometry::repeated_faces(*mesh))
+        repeated.push_back(face.triangle);
+    if (repeated.empty()) return 0;
+    const auto cut_from = lamp.cut_from;
+    lamp = part_of(lamp, geometry::others(mesh->triangles.size(), repeated));
+    lamp.cut_from = cut_from;
+    return repeated.size();
 }
 
 std::vector<ObjectId> cut_from(const Scene& scene, ObjectId object) {

@@ -186,5 +186,21 @@ TEST(CutLamps, MayBeComponentsOfTheirOwn) {
     EXPECT_EQ(enclosures.components()[2].total_open_edges(), 3u);
 }
 
+TEST(Lamps, AreasInOnePlaceAddUp) {
+    Scene scene = room();
+    const Rectangle panel{{1, 1, 2}, {0, 1, 0}, {1, 0, 0}};
+    add_area_light(scene, panel, Rgb::grey(100));
+    add_area_light(scene, panel, Rgb::grey(300));
+    EXPECT_EQ(warnings_of(scene),
+              Texts{"lights \"0\", \"1\" are alike and in one place, (1.5, 1.5, 2): their "
+                    "light adds up. Remove all but one."});
+    const rays::RayCaster caster(scene);
+    EXPECT_EQ(overlap_warnings(scene, caster, {}), Texts{}) << "one warning for one mistake";
+    Scene back_to_back = room();
+    add_area_light(back_to_back, panel, Rgb::grey(100));
+    add_area_light(back_to_back, Rectangle{panel.corner, panel.edge_v, panel.edge_u}, Rgb::grey(100));
+    EXPECT_EQ(warnings_of(back_to_back), Texts{});
+}
+
 }  // namespace
 }  // namespace stilb::checks

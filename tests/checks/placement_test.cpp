@@ -90,10 +90,9 @@ TEST(Placement, ALampInAClosedShade) {
     scene.lights.push_back({"lamp", bulb({2, 2, 2})});
     const Texts warnings = warnings_of(scene, {at({2, 2, 0.75})});
     ASSERT_EQ(warnings.size(), 1u);
-    EXPECT_EQ(
-        warnings[0],
-        "light \"lamp\" is inside object \"shade\": its light cannot get out to any sensor. Move it, or "
-        "open the object.");
+    EXPECT_EQ(warnings[0],
+              "light \"lamp\" is inside object \"shade\": its light cannot get out to any sensor. Unless it "
+              "lights another room, move it, or open the object.");
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({2.1, 2, 2})}).size(), 0u);
 }
 
@@ -104,13 +103,19 @@ TEST(Placement, LampsOutsideOfTheRoom) {
     EXPECT_EQ(
         warnings_of(scene, sensors),
         Texts{"light \"lantern\" is not inside object \"room\", which encloses all sensors: its light cannot "
-              "reach them. Move it inside, or open the object."});
+              "get in. Unless it lights another room, move it inside, or open the object."});
     EXPECT_EQ(warnings_of(scene, {at({2, 2, 0.75}), at({6, 2, 1})}), Texts{}) << "a sensor outside, too";
     for (int i = 0; i < 8; ++i) scene.lights.push_back({"string", bulb({2.0 + i, 2, 3.2})});
     EXPECT_EQ(
         warnings_of(scene, sensors),
         Texts{"lights \"lantern\", \"string\", \"string\" and 6 more are not inside object \"room\", which "
-              "encloses all sensors: their light cannot reach them. Move them inside, or open the object."});
+              "encloses all sensors: their light cannot get in. Unless they light another room, move them "
+              "inside, or open the object."});
+    const Sensor camera{"view", Camera{.position = {2, 2, 1}, .target = {3, 2, 1}}};
+    scene.lights.resize(2);
+    EXPECT_EQ(warnings_of(scene, {camera}),
+              Texts{"light \"lantern\" is not inside object \"room\", which encloses the camera: its light "
+                    "cannot get in. Unless it lights another room, move it inside, or open the object."});
 }
 
 /// Whichever side a bulb in the ceiling's own plane is on, its light counts if a sensor gets it: also that of
@@ -257,6 +262,19 @@ TEST(Placement, BodiesInTheDarkAreNamed) {
     const Texts warnings = warnings_of(furnished_room(), {dark});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_TRUE(has(warnings[0], "sensor \"people\": it lies inside object \"cabinet\"")) << warnings[0];
+}
+
+/// Of a lamp that stands half in the wall, some starts of its rays lie outside and some inside.
+TEST(Placement, ALampMayStandHalfInTheWall) {
+    for (const Shape& shape : {Shape(Sphere{{0, 2, 1.5}, 0.3}), Shape(Disk{{0, 2, 2}, {0, 0, -1}, 0.5}),
+                               Shape(Rectangle{{-0.5, 2, 2}, {0, 1, 0}, {1, 0, 0}}),
+                               Shape(triangulated(Box{{-1, 2, 1}, {1, 2.1, 1.1}}))}) {
+        Scene scene = furnished_room();
+        scene.lights.clear();
+        scene.objects.push_back({"lamp", shape, {MaterialId{0}}});
+        scene.lights.push_back({"lamp", AreaLight{ObjectId{2}, Rgb::grey(1000)}});
+        EXPECT_EQ(warnings_of(scene, {at({2, 2, 1.5}, {-1, 0, 0}), at({1.5, 2, 0.5})}), Texts{});
+    }
 }
 
 }  // namespace

@@ -50,8 +50,9 @@ TEST(Reach, OneLampAboveTheCeiling) {
     const Sensor sight{"sight", Luminance{{LineOfSight{{2, 2, 1}, {0, 0, -1}}}}};
     const Sensor body{"head", Spherical{{{2, 2, 1}}}};
     for (const Sensor& sensor : {kDesk, camera, sight, body}) {
+        const std::string what = sensor.camera() ? "what the camera sees" : "a sensor";
         EXPECT_EQ(warnings_of(scene, {sensor}),
-                  Texts{"light \"1\": none of its light reaches a sensor: object \"5\" is in the way."});
+                  Texts{"light \"1\": none of its light reaches " + what + ": object \"5\" is in the way."});
     }
 }
 

@@ -197,5 +197,28 @@ TEST(RadianceLamps, PatternsThatAreNotOfIes2radAreLeftOut) {
         "the environment variable RAYPATH, which is not set.");
 }
 
+/// The surfaces of a room and of a lamp that the file gives twice.
+TEST(RadianceLamps, PolygonsThatLieTwiceShineOnce) {
+    const std::string room =
+        "void plastic grey 0 0 5 .5 .5 .5 0 0\nvoid light lum 0 0 3 20 20 20\n"
+        "grey polygon floor 0 0 12 0 0 0 4 0 0 4 3 0 0 3 0\n"
+        "lum polygon lamp 0 0 12  1.7 1.2 2.49  1.7 1.8 2.49  2.3 1.8 2.49  2.3 1.2 2.49\n";
+    const SceneFile once = read_rad(room);
+    for (const char* copy :
+         {"lum polygon copy 0 0 12  1.7 1.2 2.49  1.7 1.8 2.49  2.3 1.8 2.49  2.3 1.2 2.49\n",
+          "lum polygon copy 0 0 12  1.7 1.8 2.49  2.3 1.8 2.49  2.3 1.2 2.49  1.7 1.2 2.49\n"}) {
+        const SceneFile twice = read_rad(room + copy);
+        ASSERT_EQ(twice.scene.lights.size(), 1u);
+        EXPECT_NEAR(flux_lm(twice.scene, twice.scene.lights[0]).luminance(),
+                    flux_lm(once.scene, once.scene.lights[0]).luminance(), 1e-9);
+        ASSERT_EQ(twice.warnings.size(), once.warnings.size() + 1);
+        EXPECT_NE(twice.warnings.back().find("\"copy\""), std::string::npos) << twice.warnings.back();
+        EXPECT_NE(twice.warnings.back().find("lies where lamp does"), std::string::npos)
+            << twice.warnings.back();
+        EXPECT_NEAR(illuminance(twice, {2, 1.5, 0.8}, {0, 0, 1}).value,
+                    illuminance(once, {2, 1.5, 0.8}, {0, 0, 1}).value, 1e-6);
+    }
+}
+
 }  // namespace
 }  // namespace stilb::io

@@ -165,7 +165,7 @@ TEST(SceneLights, RefusesUnknownTypesAndKeys) {
     EXPECT_REFUSAL(
         light("type = \"point\"\nflus = 1"),
         "s.toml:11: lights.a: unknown key \"flus\" for type \"point\". Did you mean \"flux\"? Allowed: "
-        "type, position, positions, array, flux, intensity, cct, color, group, maintenance, power.");
+        "type, position, positions, array, flux, intensity, cct, color, group, on, maintenance, power.");
 }
 
 TEST(SceneLights, RefusesWrongQuantities) {
@@ -372,6 +372,21 @@ TEST(SceneLights, GroupsAreNamed) {
     EXPECT_EQ(read_text(light(point)).scene.lights.back().group, "");
     EXPECT_EQ(refusal(light(point + "group = \"\"")),
               "s.toml:13: lights.a.group: the name is empty. Allowed: a text with at least one character.");
+}
+
+TEST(SceneLights, ThatAreOffGiveNoLightButStay) {
+    const std::string sphere = "type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 10\n";
+    const SceneFile off = read_text(light(sphere + "power = 5\non = false\n"));
+    EXPECT_TRUE(off.scene.lights.empty());
+    EXPECT_EQ(off.scene.objects.size(), 2u);
+    EXPECT_FALSE(scene::installed_power(off.scene).power_w);
+    EXPECT_EQ(read_text(light(sphere + "on = true\n")).scene.lights.size(), 1u);
+    const std::string sky = "[lights.sky]\ntype = \"environment\"\nluminance = 5\non = ";
+    EXPECT_EQ(read_text(light(sphere) + sky + "true").scene.lights.size(), 2u);
+    EXPECT_EQ(read_text(light(sphere) + sky + "false").scene.lights.size(), 1u);
+    // The object of a lamp that is off may carry another one.
+    const std::string area = "type = \"area\"\nobject = \"panel\"\nflux = 10\n";
+    EXPECT_EQ(read_text(light(area + "on = false\n[lights.b]\n" + area)).scene.lights.at(0).name, "b");
 }
 
 }  // namespace

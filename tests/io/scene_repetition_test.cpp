@@ -164,7 +164,7 @@ TEST(SceneRepetition, RefusesTwoOfOneName) {
 TEST(SceneRepetition, OtherTypesHaveOnePlace) {
     EXPECT_REFUSAL("[lights.sky]\ntype = \"environment\"\nluminance = 1\npositions = [[0, 0, 1]]",
                    "s.toml:4: lights.sky: unknown key \"positions\" for type \"environment\". Allowed: type, "
-                   "luminance, file, up, rotation, dimming, cct, color, group.");
+                   "luminance, file, up, rotation, dimming, cct, color, group, on.");
 }
 
 }  // namespace

@@ -163,7 +163,10 @@ TEST(ManyLights, TheDensityOfAnEmitterIsThatOfItsSamples) {
                         1e-9 * light->pdf_per_sr);
         } else if (length(hit->lifted - light->source_point) < 1e-3) {
             ++emitters;
-            EXPECT_NEAR(lights.pdf_per_sr(*hit, from, normal), light->pdf_per_sr, 1e-6 * light->pdf_per_sr);
+            lights.for_each_emission(*hit, -light->direction, [&](std::size_t own, const Rgb&) {
+                EXPECT_NEAR(lights.pdf_per_sr(own, *hit, from, normal), light->pdf_per_sr,
+                            1e-6 * light->pdf_per_sr);
+            });
         }
     }
     EXPECT_GT(emitters, 100);

@@ -213,6 +213,8 @@ void ImportedScene::light_triangles(ObjectId object, MaterialId material,
     const ObjectId lamp =
         is_whole ? object : scene::cut_out(scene, object, triangles, objects_.make(part, "lamp"));
     const std::string name = is_whole ? whole : part;
+    if (scene::remove_repeated_faces(scene.objects[index_of(lamp)]) > 0)
+        warnings.add("lamp", name, "some of its faces lie on others of it; each place shines once.");
     add_light(name, AreaLight{lamp, emission.luminance_cd_m2});
     if (!back) return;
     back->name = objects_.make(name + " (back)", "lamp");

@@ -102,8 +102,14 @@ ObjectId read_emitter(const TomlTable& table, const Context& context) {
 
 AreaLight read_area(TomlTable& table, const Context& context) {
     const ObjectId object = read_emitter(table, context);
-    const Shape& shape = context.file.scene.object(object).shape;
-    return {object, read_luminance(table, shape) * read_colour(table)};
+    Object& lamp = context.file.scene.objects[index_of(object)];
+    if (const std::size_t repeated = scene::remove_repeated_faces(lamp); repeated > 0) {
+        context.file.warnings.push_back(
+            fmt::format("{}: {} of the faces of object {} lie on others of it. In a lamp each place shines "
+                        "once, so they are left out. Remove the copies.",
+                        table.at("object").where(), repeated, in_quotes(lamp.name)));
+    }
+    return {object, read_luminance(table, lamp.shape) * read_colour(table)};
 }
 
 /// The surfaces of luminous spheres and openings reflect nothing; all of them share one material.
@@ -208,7 +214,7 @@ lights::LightSource read_photometry(TomlTable& table, const Context& context) {
     const auto [c0, c90, nadir] =
         lights::aim_luminaire(aim ? aim->direction() : Vec3{0, 0, -1}, spin ? spin->number(kAngle) : 0);
     Rgb factor = read_colour(table);
-    if (dimming) factor *= dimming->number(kLightQuantity);
+    if (dimming) factor *= dimming->number(kDimming);
     const SolidId solid = read_solid(table.at("file"), context);
     Scene& scene = context.file.scene;
     if (flux) factor *= flux->number(kLightQuantity) / scene.solid(solid).flux_lm();
@@ -269,7 +275,7 @@ EnvironmentLight read_environment(TomlTable& table, const Context& context) {
     if (source.key == "luminance") {
         light.luminance_cd_m2 = source.item.number(kLightQuantity) * read_colour(table);
     } else {
-        light.panorama = read_panorama(source.item, dimming ? dimming->number(kLightQuantity) : 1, context);
+        light.panorama = read_panorama(source.item, dimming ? dimming->number(kDimming) : 1, context);
     }
     return light;
 }
@@ -312,7 +318,7 @@ std::vector<std::string_view> keys_of(const Reader& reader) {
     if (!reader.place.empty()) keys.insert(keys.end(), {reader.place, "positions", "array"});
     std::string_view others = reader.keys;
     while (!others.empty()) keys.push_back(next_word(others));
-    keys.push_back("group");
+    keys.insert(keys.end(), {"group", "on"});
     if (is_lamp(reader)) keys.insert(keys.end(), {"maintenance", "power"});
     return keys;
 }
@@ -330,6 +336,12 @@ std::string read_group(const TomlTable& table, std::string otherwise) {
     std::string name(group->text());
     if (name.empty()) group->fail("the name is empty. Allowed: a text with at least one character.");
     return name;
+}
+
+/// Of a lamp that is off only the geometry counts.
+bool is_on(const TomlTable& table) {
+    const auto on = table.find("on"), dimming = table.find("dimming");
+    return (!on || on->boolean()) && (!dimming || dimming->number(kDimming) > 0);
 }
 
 /// Electric, at full output. That of a luminaire file belongs to the flux of the file.
@@ -364,6 +376,7 @@ void read_lights(const TomlTable& section, LightContext context, SceneFile& file
         const double maintenance = is_lamp(reader) ? read_maintenance(table, context.maintenance) : 1;
         Light light{name, reader.read(table, {name, context.directory, context.parts, file}),
                     read_group(table, copy_of), maintenance};
+        if (!is_on(table)) continue;
         light.power_w = read_power(table, light, file.scene);
         if (maintenance < 1) light.source = lights::scaled(light.source, Rgb::grey(maintenance));
         file.scene.lights.push_back(std::move(light));

@@ -53,8 +53,9 @@ TomlValue parse_toml(std::string_view text, const std::string& name);
 /// Metres; the limit keeps squares and products of lengths far from overflow.
 inline constexpr Range kCoordinate{-1e9, 1e9, "a number from -1e9 to 1e9"};
 inline constexpr Range kRadius{1e-9, 1e9, "a length above 0 (from 1e-9 to 1e9 m)"};
-/// Flux, intensity, luminance and factors on them.
+/// Flux, intensity and luminance; and factors on them, of which 0 is a lamp that is off.
 inline constexpr Range kLightQuantity{1e-15, 1e15, "a number above 0 (from 1e-15 to 1e15)"};
+inline constexpr Range kDimming{0, 1e15, "a number from 0 to 1e15"};
 
 class TomlTable;
 

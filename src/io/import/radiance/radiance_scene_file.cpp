@@ -9,6 +9,7 @@
 
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
+#include "geometry/repeated_faces.h"
 #include "io/import/import_settings.h"
 #include "io/import/radiance/distribution.h"
 #include "io/import/radiance/optics.h"
@@ -217,8 +218,16 @@ class Assembly {
         const bool is_whole = is_one_body(*lamp.optics);
         const geometry::ConnectedComponents parts = geometry::find_components(mesh);
         std::vector<std::vector<std::uint32_t>> triangles(is_whole ? 1 : parts.count());
-        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+        const std::vector<geometry::RepeatedFace> repeated = geometry::repeated_faces(mesh);
+        warn_of_repeated(repeated, file);
+        auto next = repeated.begin();
+        for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t) {
+            if (next != repeated.end() && next->triangle == t) {
+                ++next;
+                continue;
+            }
             triangles[is_whole ? 0 : parts.of_triangle[t]].push_back(t);
+        }
         for (const std::vector<std::uint32_t>& own : triangles) {
             const std::uint32_t group = file.group_of_triangle[own.front()];
             const bool is_single =
@@ -227,6 +236,19 @@ class Assembly {
             const std::string name = is_single ? file.group_names[group] : lamp.optics->name;
             const auto rectangle = parallelogram_of(part);
             lamp.shapes.emplace_back(name, rectangle ? Shape(*rectangle) : Shape(std::move(part)));
+        }
+    }
+
+    /// One warning for each surface that lies on another one.
+    void warn_of_repeated(const std::vector<geometry::RepeatedFace>& repeated, const MeshFile& file) {
+        std::set<std::pair<std::uint32_t, std::uint32_t>> named;
+        for (const auto& [triangle, original] : repeated) {
+            const std::uint32_t copy = file.group_of_triangle[triangle],
+                                first = file.group_of_triangle[original];
+            if (!named.emplace(copy, first).second) continue;
+            warnings_.add("lamp", file.group_names[copy],
+                          fmt::format("it lies where {} does; each place shines once. Remove one of them.",
+                                      file.group_names[first]));
         }
     }
 
