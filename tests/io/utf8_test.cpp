@@ -63,9 +63,8 @@ TEST(Utf8, OtherBytesAreReadAsLatin1) {
 
 TEST(Utf8, StaysAsItIs) {
     // The first and last printable characters of one to four bytes.
-    for (const std::string text :
-         {"", "plain", "~", "\xc2\xa0", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf", "\xee\x80\x80",
-          "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
+    for (const std::string text : {"", "plain", "~", "\xc2\xa0", "\xdf\xbf", "\xe0\xa0\x80", "\xed\x9f\xbf",
+                                   "\xee\x80\x80", "\xef\xbf\xbf", "\xf0\x90\x80\x80", "\xf4\x8f\xbf\xbf"})
         EXPECT_EQ(as_utf8(text), text);
 }
 
