@@ -28,9 +28,9 @@ struct LightsAtPoints {
     std::size_t count = 0;  ///< of all lights
     bool has_outside = false;
 };
-/// Likewise where the light of each strength arrives: half of its first surfaces choose it, or one that is
-/// not stronger, with a probability of about kWeakChoice or more. Particles of some lights of each strength
-/// find these surfaces: surfaces that hide the stronger lights are not asked for.
+/// Likewise where the light of each strength arrives: nine tenths of its first surfaces choose it, or one
+/// that is not stronger, with a probability of about kWeakChoice or more. Particles of some lights of each
+/// strength find these surfaces: surfaces that hide the stronger lights are not asked for.
 std::vector<double> choice_favours(const LightsAtPoints& lights, const rays::RayCaster& caster);
 
 /// A fourth of the choices costs other lights little, because shadow rays are many, and the variance of their

@@ -248,7 +248,7 @@ class Assembly {
             if (!named.emplace(copy, first).second) continue;
             warnings_.add("lamp", file.group_names[copy],
                           fmt::format("it lies where {} does; each place shines once. Remove one of them.",
-                                      file.group_names[first]));
+                                      in_quotes(file.group_names[first])));
         }
     }
 
