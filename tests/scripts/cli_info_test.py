@@ -57,7 +57,7 @@ step = 5
         result = run("info", self.scene)
         self.assertEqual(result.returncode, 0)
         for part in ("A room", "Materials (1)", "Objects (2)", "Lights (1), 1000 lm in all", "Sensors (2)", "Run:",
-                     "Memory:", "No warnings"):
+                     "Memory to read it:", "No warnings"):
             self.assertIn(part, result.stdout)
 
     def test_text_shows_every_material(self):
