@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "exact/configuration_factors.h"
+#include "exact/diffuse_cube.h"
 #include "run/run.h"
 #include "scene/overlaps.h"
 #include "support/scene_builder.h"
@@ -160,6 +161,30 @@ TEST(FarThings, SensorsRightBelowALampAreBelowIt) {
         scene, {point_sensor({{{101, 1, 1}, kUp}, {{101, 1, 1 + 1e-6}, kUp}, {{5, 0.001, 1}, kUp}})}, "path",
         64);
     for (const double lx : above) EXPECT_EQ(lx, 0);
+}
+
+/// A receiver that is near to the centre of ray queries gets its light from walls that are far from it: from
+/// halls in which single precision at the walls is coarser than the offset at the centre.
+TEST(FarThings, LargeHallsLoseNoLightOfTheirWalls) {
+    for (const double half_m : {30.0, 34.0, 100.0, 300.0, 3000.0}) {
+        Scene scene;
+        add_object(scene, Box{{-half_m, -half_m, -half_m}, {half_m, half_m, half_m}}, diffuse(0.5));
+        const double flux_lm = 1e4 * half_m * half_m;
+        add_point_light(scene, {0, 0, 0}, Rgb::grey(flux_lm / (4 * kPi)));
+        const exact::DiffuseCube cube(2 * half_m, flux_lm);
+        const std::vector<MeasuringPoint> points{{{0, 0, -half_m}, kUp},
+                                                 {{half_m / 2, half_m / 2, -half_m}, kUp}};
+        for (const std::string_view method : {"path", "light-paths", "local"}) {
+            const auto values = values_of(scene, {point_sensor(points)}, method, 32768);
+            for (std::size_t i = 0; i < points.size(); ++i) {
+                const auto& [x, y, z] = points[i].position;
+                const double exact_lx =
+                    cube.direct_illuminance_lx(x, y) + cube.indirect_illuminance_lx(0.5, x, y);
+                EXPECT_NEAR(values[i] / exact_lx, 1, 0.01)
+                    << method << ", half side " << half_m << " m, " << i;
+            }
+        }
+    }
 }
 
 }  // namespace
