@@ -62,8 +62,10 @@ Vector narrow(const Vec3& v) {
 
 /// Finds exactly which of the lanes that may be inside are, and returns whether any is. Products change their
 /// sign with the order of an edge's ends and are the same otherwise, bit by bit, as differences and products
-/// of single precision are exact in double precision.
-std::int32_t settle(const TestedTriangle& triangle, const RayPacket& rays, Crossed& crossed) {
+/// of single precision are exact in double precision. Not inlined: fused multiplications, of which the
+/// calling function has versions, would round differently by the order of the ends.
+[[gnu::noinline]] std::int32_t settle(const TestedTriangle& triangle, const RayPacket& rays,
+                                      Crossed& crossed) {
     std::int32_t any = 0;
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         if (crossed.is_inside[i] == 0) continue;
@@ -96,13 +98,13 @@ STILB_VECTORIZED std::size_t find_crossed(const TestedTriangle* __restrict trian
             const float w = product(triangle.edges[2], lines, i);
             const float rounding =
                 triangle.rounding_m2 * lines.length[i] + triangle.rounding_m * lines.reach[i];
-            const float least = std::min(std::min(u, v), w), most = std::max(std::max(u, v), w);
-            const int may_be = static_cast<int>(least >= -rounding) | static_cast<int>(most <= rounding);
-            const int is_sure = static_cast<int>(least > rounding) | static_cast<int>(most < -rounding);
+            // How far inside the line passes, on either side of the triangle.
+            const float inside = std::max(std::min(std::min(u, v), w), -std::max(std::max(u, v), w));
+            const int may_be = static_cast<int>(inside >= -rounding);
             crossed.u[i] = u, crossed.v[i] = v, crossed.w[i] = w;
             crossed.is_inside[i] = may_be;
             any |= may_be;
-            any_unsure |= may_be & ~is_sure;
+            any_unsure |= static_cast<int>(std::abs(inside) <= rounding);
         }
         if (any_unsure != 0) any = settle(triangle, rays, crossed);
         crossed.number = static_cast<std::uint32_t>(n);
