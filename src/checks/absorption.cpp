@@ -27,14 +27,14 @@ bool has_bright_surfaces(const Scene& scene) {
     });
 }
 
-/// What particles of all lamps lose on their ways.
+/// The losses of particles of all lamps at their reflections.
 struct Losses {
     Rgb lost;  ///< sums over the reflections, in which light that leaves the scene loses all
     double reflections = 0;
     std::vector<std::size_t> meetings;  ///< by object
 
     explicit Losses(const Scene& scene) : meetings(scene.objects.size()) {}
-    /// Of the band that loses least, at each reflection.
+    /// The mean share that is lost at a reflection, in the band that loses least.
     double mean() const { return reflections > 0 ? std::min({lost[0], lost[1], lost[2]}) / reflections : 1; }
 };
 

@@ -37,7 +37,8 @@ bool have_one_colour(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(difference[0]), std::abs(difference[1]), std::abs(difference[2])}) < same;
 }
 
-/// Of surfaces, closer than `tolerance_m`.
+/// Whether two lamps give the same light; those with surfaces, if these are nowhere farther apart than
+/// `tolerance_m`.
 bool have_one_distribution(const Light& a, const Light& b, const Scene& scene, double tolerance_m) {
     constexpr double same_cosine = 1 - 1e-6;
     if (a.source.index() != b.source.index()) return false;

@@ -21,7 +21,7 @@ std::FILE* messages_beside(const std::string& output);
 /// How progress is shown where stderr is not a terminal.
 enum class OffTerminal { nothing, plain_lines };
 
-/// What a command fails by, on stderr. Where that cannot be written, the message is lost, but nothing else.
+/// Prints the error by which a command fails on stderr. If that cannot be written, only the message is lost.
 void print_failure(const std::string& message);
 
 /// Rewrites one line of stderr and clears it at the end. Where stderr is not a terminal, it shows nothing, or

@@ -19,7 +19,7 @@ constexpr std::array<std::string_view, 6> kBundleOptions{"patch",      "first-sh
 constexpr std::span kFirstShotOptions = std::span(kBundleOptions).first<5>();
 constexpr std::span kParticlesOptions = std::span(kBundleOptions).first<1>();
 
-/// What `auto` chooses from, beside `path`.
+/// The techniques from which `auto` chooses, apart from `path`.
 constexpr std::array kTechniques{
     EstimatorEntry{.name = "light-paths",
                    .summary = "local estimation balanced with path tracing",

@@ -60,10 +60,10 @@ Vector narrow(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Finds exactly which of the lanes that may be inside are, and returns whether any is. Products change their
-/// sign with the order of an edge's ends and are the same otherwise, bit by bit, as differences and products
-/// of single precision are exact in double precision. Not inlined: fused multiplications, of which the
-/// calling function has versions, would round differently by the order of the ends.
+/// Finds in double precision which of the lanes that may be inside are, and returns whether any is. An edge's
+/// product changes its sign with the order of the ends and is the same otherwise, bit by bit, because each
+/// operation rounds alike for both signs. Not inlined: the versions of the calling function may fuse
+/// multiplications and additions, which would round differently by the order of the ends.
 [[gnu::noinline]] std::int32_t settle(const TestedTriangle& triangle, const RayPacket& rays,
                                       Crossed& crossed) {
     std::int32_t any = 0;

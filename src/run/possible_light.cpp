@@ -39,7 +39,7 @@ double PossibleLight::of(const Measurand& measurand) const {
 }
 
 double PossibleLight::light_lx(const MeasuringPoint& at) const {
-    const double lift_m = caster_.offset_m(at.position, caster_.half_extent_m());
+    const double lift_m = caster_.offset_m(at.position, caster_.lift().largest_size_m());
     const auto is_above = [&](const Bounds& box) { return height_above(at, box) > 2 * lift_m; };
     if (std::ranges::none_of(reflecting_, is_above)) return 0;
     double sum_lx = 0;

@@ -18,7 +18,7 @@ namespace stilb::transport {
 /// `weights`: not negative.
 std::vector<double> emission_favours(std::span<const double> weights);
 
-/// What favours in the choice among lights at a point depend on.
+/// The lights of a scene, as choice_favours() needs them.
 struct LightsAtPoints {
     std::span<const double> flux_lm;  ///< 0 for lights that need no favour, such as light from infinity
     /// A particle of a light.

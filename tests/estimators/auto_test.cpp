@@ -3,14 +3,13 @@
 
 #include <vector>
 
+#include "estimators/estimates.h"
 #include "estimators/estimator_list.h"
 #include "support/scene_builder.h"
 #include "transport/receiver.h"
 
 namespace stilb::estimators {
 namespace {
-
-using Maker = std::unique_ptr<Estimator> (*)(const Problem&);
 
 /// A room with a lamp below its ceiling and a box.
 Scene office_room() {
@@ -44,22 +43,9 @@ std::vector<Measurand> grid(const Vec3& corner, double width, double depth, int 
 }
 std::vector<Measurand> room_grid(int edge) { return grid({0, 0, 0.8}, 3, 3, edge, edge); }
 
-struct Choice {
-    Choice(Scene made, std::vector<Measurand> asked)
-        : scene(std::move(made)), caster(scene), measurands(std::move(asked)) {}
-
-    Problem problem() const {
-        return {.scene = scene,
-                .caster = caster,
-                .max_reflections = transport::kUnlimited,
-                .preparation_key = math::RandomKey{1},
-                .measurands = measurands};
-    }
+struct Choice : MeasuredScene {
+    using MeasuredScene::MeasuredScene;
     std::uint64_t granularity(Maker make) const { return make(problem())->batch_granularity(); }
-
-    Scene scene;
-    rays::RayCaster caster;
-    std::vector<Measurand> measurands;
 };
 
 TEST(Auto, TracesPathsFromFewPointsUnderAnAreaLamp) {

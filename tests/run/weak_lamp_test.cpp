@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "run/possible_light.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 
@@ -94,6 +95,20 @@ TEST(WeakLamp, ThatNoSampleFoundIsAllowedFor) {
     scene.materials[1].material = Black{};
     const auto black = measured(scene, sensor, "path", 32, 1);
     EXPECT_EQ(black.upper, black.lower);
+}
+
+/// A ground far below the room does not make its walls seem too near to reflect light.
+TEST(WeakLamp, IsPossibleWhateverLiesElsewhere) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {3, 3, 1.5}}, diffuse(0.5));
+    add_point_light(scene, {1, 1, 1}, Rgb::grey(1));
+    const MeasuringPoint floor{{1, 2, 0}, {0, 0, 1}};
+    const rays::RayCaster alone_caster(scene);
+    const double alone_lx = PossibleLight(scene, alone_caster, 100).of(floor);
+    EXPECT_GT(alone_lx, 0);
+    add_object(scene, Rectangle{{-5e5, -5e5, -1}, {1e6, 0, 0}, {0, 1e6, 0}}, diffuse(0.5));
+    const rays::RayCaster caster(scene);
+    EXPECT_NEAR(PossibleLight(scene, caster, 100).of(floor), alone_lx, 1e-9 * alone_lx);
 }
 
 }  // namespace

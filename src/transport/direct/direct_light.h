@@ -108,7 +108,7 @@ class DirectLight {
     const LampHull& hull_of(std::size_t lamp) const;
     std::optional<Rgb> whole_lx(std::size_t lamp, const lights::LitPoint& at) const;
     double rough_lx(std::size_t lamp, const lights::LitPoint& at) const;
-    /// What one receiver gets of a lamp, where that is certain.
+    /// The illuminance of one receiver by a lamp, where that is certain.
     std::optional<Rgb> settled_lx(std::size_t lamp, const Receiver& receiver) const;
     std::optional<LampSample> sample_lamp(std::size_t lamp, const lights::LitPoint& at,
                                           math::SampleStream& stream) const;

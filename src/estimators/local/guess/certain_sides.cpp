@@ -245,7 +245,7 @@ class CertainSides::Search {
         for (std::size_t group = block.first; group < block.last; ++group) {
             for (std::uint32_t i = cluster.first; i < cluster.last; ++i) {
                 const std::uint32_t side = sides_.sides_[i];
-                // What other surfaces own of a side is not seen of it.
+                // Places of a side that another surface owns are not seen.
                 const bool is_whole = !sides_.guess_.shared_places().shares(side);
                 if (is_whole || sight == Sight::none) sights[group][side] = sight;
             }

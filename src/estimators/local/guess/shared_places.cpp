@@ -75,7 +75,7 @@ SharedPlaces::SharedPlaces(const Scene& scene, const rays::RayCaster& caster, co
     for (std::size_t p = 0; p < count; ++p) first_cover_[p + 1] += first_cover_[p];
 }
 
-/// Of surfaces that are farther apart, the lifted points of one lie behind the other.
+/// If two surfaces are farther apart, the lifted points of one lie behind the other.
 double SharedPlaces::largest_gap_m(const Vec3& position) const {
     const Lift lift = caster_.lift();
     return lift.offset_m(position, lift.largest_size_m());
