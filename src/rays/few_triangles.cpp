@@ -18,7 +18,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Rays in Pluecker coordinates.
 struct alignas(64) Lines {
     LaneVectors direction, moment;
-    Floats length, reach;  ///< bounds of |direction|, and of |origin| |direction|
+    Floats reach;  ///< |direction| times the sum of |origin| and the radius, or more
 };
 
 /// A triangle through which some lines pass.
@@ -36,7 +36,7 @@ struct alignas(64) Nearest {
 
 STILB_INLINED float dot(const Vector& v, float x, float y, float z) { return v[0] * x + v[1] * y + v[2] * z; }
 
-STILB_VECTORIZED void find_lines(const RayPacket& __restrict rays, Lines& __restrict lines) {
+STILB_VECTORIZED void find_lines(const RayPacket& __restrict rays, float radius_m, Lines& __restrict lines) {
     for (int i = 0; i < kPacketWidth; ++i) {
         const float x = rays.origin_x[i], y = rays.origin_y[i], z = rays.origin_z[i];
         const float dx = rays.direction_x[i], dy = rays.direction_y[i], dz = rays.direction_z[i];
@@ -44,8 +44,8 @@ STILB_VECTORIZED void find_lines(const RayPacket& __restrict rays, Lines& __rest
         lines.moment.x[i] = y * dz - z * dy;
         lines.moment.y[i] = z * dx - x * dz;
         lines.moment.z[i] = x * dy - y * dx;
-        lines.length[i] = std::abs(dx) + std::abs(dy) + std::abs(dz);
-        lines.reach[i] = lines.length[i] * (std::abs(x) + std::abs(y) + std::abs(z));
+        lines.reach[i] = (std::abs(dx) + std::abs(dy) + std::abs(dz)) *
+                         (std::abs(x) + std::abs(y) + std::abs(z) + radius_m);
     }
 }
 
@@ -85,28 +85,27 @@ Vector narrow(const Vec3& v) {
 
 /// Returns their number. Without branches that could not be predicted.
 STILB_VECTORIZED std::size_t find_crossed(const TestedTriangle* __restrict triangles, std::size_t count,
-                                          const RayPacket& rays, const Lines& __restrict lines,
-                                          AllCrossed& __restrict all) {
+                                          const RayPacket& rays, const LaneMask& __restrict lanes,
+                                          const Lines& __restrict lines, AllCrossed& __restrict all) {
+    constexpr std::int32_t may_be_inside = 1, is_unsure = 2;
     std::size_t found = 0;
     for (std::size_t n = 0; n < count; ++n) {
         const TestedTriangle& triangle = triangles[n];
         Crossed& crossed = all[found];
-        std::int32_t any = 0, any_unsure = 0;
+        std::int32_t any = 0;
         for (int i = 0; i < kPacketWidth; ++i) {
             const float u = product(triangle.edges[0], lines, i);
             const float v = product(triangle.edges[1], lines, i);
             const float w = product(triangle.edges[2], lines, i);
-            const float rounding =
-                triangle.rounding_m2 * lines.length[i] + triangle.rounding_m * lines.reach[i];
+            const float rounding = triangle.rounding_m * lines.reach[i];
             // How far inside the line passes, on either side of the triangle.
             const float inside = std::max(std::min(std::min(u, v), w), -std::max(std::max(u, v), w));
-            const int may_be = static_cast<int>(inside >= -rounding);
+            const std::int32_t in_it = inside >= -rounding ? lanes[i] & may_be_inside : 0;
             crossed.u[i] = u, crossed.v[i] = v, crossed.w[i] = w;
-            crossed.is_inside[i] = may_be;
-            any |= may_be;
-            any_unsure |= static_cast<int>(std::abs(inside) <= rounding);
+            crossed.is_inside[i] = in_it;
+            any |= inside > rounding ? in_it : in_it * is_unsure;
         }
-        if (any_unsure != 0) any = settle(triangle, rays, crossed);
+        if ((any & is_unsure) != 0) any = settle(triangle, rays, crossed);
         crossed.number = static_cast<std::uint32_t>(n);
         found += static_cast<std::size_t>(any);
     }
@@ -155,7 +154,7 @@ void FewTriangles::add(std::uint32_t object, std::uint32_t primitive, const std:
     constexpr double rounding_error = 0x1p-20;
     const std::array<Vec3, 3> p{wide(corners[0]), wide(corners[1]), wide(corners[2])};
     TestedTriangle& triangle = triangles_.emplace_back();
-    double longest_m = 0, farthest_m = 0;
+    double longest_m = 0, farthest_m = radius_m_;
     for (std::size_t i = 0; i < 3; ++i) {
         const Vec3 &from = p[i], &to = p[(i + 2) % 3];
         triangle.edges[i] = {narrow(from - to), narrow(cross(to, from))};
@@ -164,8 +163,7 @@ void FewTriangles::add(std::uint32_t object, std::uint32_t primitive, const std:
     }
     triangle.corners = corners;
     triangle.normal = narrow(normalized(cross(p[1] - p[0], p[2] - p[0])));
-    triangle.rounding_m = static_cast<float>(rounding_error * longest_m);
-    triangle.rounding_m2 = static_cast<float>(rounding_error * longest_m * farthest_m);
+    triangle.rounding_m = static_cast<float>(rounding_error * longest_m * farthest_m / radius_m_);
     triangle.object = object, triangle.primitive = primitive;
 }
 
@@ -177,9 +175,10 @@ bool FewTriangles::are_faster(const LaneMask& lanes) const {
 
 void FewTriangles::closest(RayHitPacket& packet, const LaneMask& lanes) const {
     Lines lines;
-    find_lines(packet.ray, lines);
+    find_lines(packet.ray, static_cast<float>(radius_m_), lines);
     AllCrossed crossed;
-    const std::size_t count = find_crossed(triangles_.data(), triangles_.size(), packet.ray, lines, crossed);
+    const std::size_t count =
+        find_crossed(triangles_.data(), triangles_.size(), packet.ray, lanes, lines, crossed);
     Nearest nearest;
     for (std::size_t i = 0; i < kPacketWidth; ++i)
         nearest.end[i] = lanes[i] != 0 ? packet.ray.end[i] : -kInfinity;
@@ -201,9 +200,10 @@ void FewTriangles::closest(RayHitPacket& packet, const LaneMask& lanes) const {
 
 void FewTriangles::occlude(RayPacket& packet, const LaneMask& lanes) const {
     Lines lines;
-    find_lines(packet, lines);
+    find_lines(packet, static_cast<float>(radius_m_), lines);
     AllCrossed crossed;
-    const std::size_t count = find_crossed(triangles_.data(), triangles_.size(), packet, lines, crossed);
+    const std::size_t count =
+        find_crossed(triangles_.data(), triangles_.size(), packet, lanes, lines, crossed);
     LaneMask open = lanes;
     for (std::size_t n = 0; n < count; ++n)
         keep_open(triangles_[crossed[n].number], crossed[n], packet, open);

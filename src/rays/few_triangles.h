@@ -25,9 +25,9 @@ struct TestedTriangle {
     std::array<Edge, 3> edges;  ///< opposite the second, the third and the first corner
     std::array<Vector, 3> corners;
     Vector normal;
-    /// Bounds of the products' rounding errors for a unit direction: by the edges' distance from the centre,
-    /// and for each metre of the ray's origin from there.
-    float rounding_m2 = 0, rounding_m = 0;
+    /// Bound of the products' rounding errors, for a ray of length 1 and for each metre of the sum of its
+    /// origin's distance from the centre and FewTriangles' radius.
+    float rounding_m = 0;
     std::uint32_t object = 0, primitive = 0;
 };
 
@@ -36,6 +36,10 @@ class FewTriangles {
   public:
     /// With so many, full packets take as long as with Embree.
     static constexpr std::size_t kMost = 96;
+
+    /// `radius_m`: most triangles are not farther from the centre. Those that are have wider bounds of
+    /// rounding errors than they need, and more products in double precision.
+    explicit FewTriangles(double radius_m) : radius_m_(radius_m) {}
 
     /// With the indices that hits are to have.
     void add(std::uint32_t object, std::uint32_t primitive,
@@ -48,6 +52,7 @@ class FewTriangles {
     void occlude(RayPacket& packet, const LaneMask& lanes) const;
 
   private:
+    double radius_m_;
     std::vector<TestedTriangle> triangles_;
 };
 

@@ -219,7 +219,7 @@ struct RayCaster::Implementation {
             count += geometry->triangle_count;
         }
         if (count > FewTriangles::kMost) return;
-        few_triangles.emplace();
+        few_triangles.emplace(lift_rule.largest_size_m());
         for (std::uint32_t object = 0; object < geometries.size(); ++object) {
             const EmbreeGeometry& geometry = *geometries[object];
             for (std::uint32_t i = 0; i < geometry.triangle_count; ++i) {
