@@ -103,13 +103,13 @@ class Lift {
         return kShare * std::max({std::abs(relative.x), std::abs(relative.y), std::abs(relative.z), size_m,
                                   least_size_m()});
     }
-    /// The same for the end of a ray that starts `distance_m` away: both its origin and its direction are
-    /// rounded by 2^-24 of that.
+    /// The same for the end of a ray that starts `distance_m` away: its origin, its direction and the place
+    /// where it meets a surface are rounded by 2^-24 of that, each several times.
     double offset_m(const Vec3& position, double size_m, double distance_m) const {
         return offset_m(position, std::max(size_m, kShareOfRay * distance_m));
     }
     static constexpr double kShare = 0x1p-19;
-    static constexpr double kShareOfRay = 0x1p-4;
+    static constexpr double kShareOfRay = 0x1p-2;
 
   private:
     static constexpr double kFarthestEnd_m = 32;

@@ -12,6 +12,7 @@
 namespace stilb::rays {
 namespace {
 
+constexpr double kRadius_m = 10;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 LaneMask lanes_up_to(std::size_t count) {
@@ -165,7 +166,7 @@ TEST(FewTriangles, LeaveOpeningsAsTheyAre) {
 
 /// A triangle a thousand kilometres away, or the size of the scene, changes nothing beside an edge.
 TEST(FewTriangles, MissWhatIsBesideAnEdgeWhereverElseSomethingLies) {
-    FewTriangles triangles;
+    FewTriangles triangles{kRadius_m};
     triangles.add(0, 0, {{{1, 0, -1}, {1, 1, -1}, {1, 0, 1}}});
     triangles.add(1, 0, {{{1e6f, -1e6f, -1e6f}, {1e6f, 1e6f, -1e6f}, {1e6f, 0, 1e6f}}});
     RayHitPacket packet;
@@ -177,7 +178,7 @@ TEST(FewTriangles, MissWhatIsBesideAnEdgeWhereverElseSomethingLies) {
 
 /// One triangle across the x-axis at x = 1.
 FewTriangles one_triangle() {
-    FewTriangles triangles;
+    FewTriangles triangles{kRadius_m};
     triangles.add(3, 5, {{{1, -1, -1}, {1, 2, -1}, {1, -1, 2}}});
     return triangles;
 }
@@ -217,7 +218,7 @@ TEST(FewTriangles, MeetRaysBetweenStartAndEnd) {
 }
 
 TEST(FewTriangles, AreForPacketsThatAreFullEnough) {
-    FewTriangles triangles;
+    FewTriangles triangles{kRadius_m};
     for (std::uint32_t i = 0; i < FewTriangles::kMost / 2; ++i)
         triangles.add(0, i, {{{1, -1, -1}, {1, 2, -1}, {1, -1, 2}}});
     EXPECT_TRUE(triangles.are_faster(lanes_up_to(8)));

@@ -64,10 +64,10 @@ TEST(LiftOf, DoesNotCountATriangleThatWasLeftElsewhere) {
 
 TEST(Lift, OfThingsSeenFromAfarGrowsWithTheDistance) {
     const Lift lift({}, 1);
-    const double near_m = lift.offset_m({}, 0.1, 3.9);
+    const double near_m = lift.offset_m({}, 0.1, 0.9);
     EXPECT_EQ(near_m, lift.offset_m({}, 0.1));  // a quarter of the extent is more
-    EXPECT_EQ(near_m, lift.offset_m({}, 0.1, 4));
-    EXPECT_GT(lift.offset_m({}, 0.1, 4.1), near_m);
+    EXPECT_EQ(near_m, lift.offset_m({}, 0.1, 1));
+    EXPECT_GT(lift.offset_m({}, 0.1, 1.1), near_m);
     EXPECT_EQ(lift.offset_m({}, 0.1, 1000), 2 * lift.offset_m({}, 0.1, 500));
 }
 
