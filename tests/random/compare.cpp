@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "estimators/estimator_list.h"
 #include "io/scene/scene_file.h"
@@ -46,7 +47,8 @@ double error_towards(const MeasuredReading& reading, double other) {
 double largest_of(const Measured& measured) {
     double largest = 0;
     for (const MeasuredReading& reading : measured.readings)
-        largest = std::max(largest, std::abs(reading.estimate.value));
+        if (std::isfinite(reading.estimate.value))
+            largest = std::max(largest, std::abs(reading.estimate.value));
     return largest;
 }
 
@@ -57,6 +59,12 @@ Difference difference(const MeasuredReading& a, const MeasuredReading& b, double
     result.other = b.estimate.value;
     result.value_error = error_towards(a, result.other);
     result.other_error = error_towards(b, result.value);
+    if (!std::isfinite(result.value + result.other + result.value_error + result.other_error)) {
+        // UGR before a background that may be black is only known to be above a bound.
+        const bool overlap = !(a.estimate.lower > b.estimate.upper) && !(b.estimate.lower > a.estimate.upper);
+        result.z = overlap ? 0 : std::numeric_limits<double>::infinity();
+        return result;
+    }
     const double larger = std::max(std::abs(result.value), std::abs(result.other));
     const double rounding = on_patches ? (kOfPatches * larger + kOfPatchesOfLargest * largest) / kThresholdZ
                                        : kRounding * larger + kRoundingOfLargest * largest;
