@@ -20,6 +20,7 @@ from typing import Any
 import numpy as np
 
 from ._stilb import InputError
+from .scene import load
 
 #: Reflectances by words of a material's name (English, German, French), the first that fits.
 REFLECTANCES_BY_WORD = {
@@ -106,6 +107,10 @@ class Fixture:
     cct_k: float | None = None
     power_w: float | None = None
 
+    def is_dark(self) -> bool:
+        """Whether the IFC file states no light of it."""
+        return self.file is None and self.flux_lm is None
+
 
 @dataclass
 class Building:
@@ -135,6 +140,19 @@ class Building:
         self.warnings.append(f"the building lies at map coordinates: it is moved by {_vector(-self.offset)} m, to the origin. "
                              "The scene file has the offset.")
 
+    def leave_out_unusable_space(self, scene: Path) -> bool:
+        """Whether there was a space over whose floor no plane fits, such as a shaft."""
+        try:
+            load(scene)
+        except InputError as error:
+            refused = re.search(r"sensors\.(.+?): (found no floor.*)$", str(error), re.DOTALL)
+            if refused is None:
+                raise
+            self.spaces = [space for space in self.spaces if space.name != refused[1]]
+            self.warnings.append(f'space "{refused[1]}" gets no sensor: {refused[2]}')
+            return True
+        return False
+
 
 def import_ifc(path: str | Path, folder: str | Path, reflectances: str | Path | None = None) -> Building:
     """Writes a building as a folder with a scene file.
@@ -153,7 +171,10 @@ def import_ifc(path: str | Path, folder: str | Path, reflectances: str | Path | 
     for fixture in building.fixtures:
         if fixture.file is not None:
             shutil.copyfile(fixture.file, target / fixture.file.name)
-    (target / "scene.toml").write_text(scene_text(building, Path(path).name), encoding="utf-8")
+    scene = target / "scene.toml"
+    scene.write_text(scene_text(building, Path(path).name), encoding="utf-8")
+    while building.leave_out_unusable_space(scene):
+        scene.write_text(scene_text(building, Path(path).name), encoding="utf-8")
     return building
 
 
@@ -201,6 +222,7 @@ class _Reader:
         self.spaces: list[Space] = []
         self.warnings: list[str] = []
         self.names: Counter[str] = Counter()
+        self.luminaires = {product.id() for product in _light_fixtures(model)}
 
     def read(self, geometry: Any) -> Building:
         settings = geometry.settings()
@@ -228,6 +250,9 @@ class _Reader:
         if product.is_a("IfcSpace"):
             self._add_space(product, vertices, triangles)
         if any(product.is_a(kind) for kind in NO_SURFACES) or len(triangles) == 0:
+            return
+        # What a luminaire's file or flux states was measured with its body, which would catch the light again.
+        if product.id() in self.luminaires:
             return
         mesh = self._storey_of(product)
         element = _plain(f"{product.is_a()[3:]} {product.Name or product.GlobalId}")
@@ -333,13 +358,19 @@ class _Reader:
 
         metres = ifcopenshell.util.unit.calculate_unit_scale(self.model)
         fixtures = []
-        for product in _light_fixtures(self.model):
+        for number in sorted(self.luminaires):
+            product = self.model.by_id(number)
             matrix = np.array(ifcopenshell.util.placement.get_local_placement(product.ObjectPlacement))
             axis, across = 0.0 - matrix[:3, 2], matrix[:3, 0]
             spin_deg = float(np.degrees(np.arctan2(across[1], across[0]))) if abs(axis[2]) > 0.999 else 0.0
             fixture = Fixture(self._new_name(_plain(product.Name or "luminaire")), matrix[:3, 3] * metres, axis, spin_deg)
             self._add_photometry(product, fixture)
             fixtures.append(fixture)
+        dark = [f'"{fixture.name}"' for fixture in fixtures if fixture.is_dark()]
+        if dark:
+            more = f" and {len(dark) - 3} more" if len(dark) > 3 else ""
+            self.warnings.append(f"no photometric file and no flux is known of the luminaires {', '.join(dark[:3])}{more}: they "
+                                 "are in the scene file as comments.")
         return fixtures
 
     def _add_photometry(self, product: Any, fixture: Fixture) -> None:
@@ -358,9 +389,6 @@ class _Reader:
                     fixture.power_w = float(value)
                 elif key in ("LuminousFlux", "TotalLuminousFlux") and isinstance(value, (int, float)):
                     fixture.flux_lm = fixture.flux_lm or float(value)
-        if fixture.file is None and fixture.flux_lm is None:
-            self.warnings.append(f'luminaire "{fixture.name}" has neither a photometric file nor a flux; it is in the scene '
-                                 "file as a comment.")
 
     def _existing(self, location: str | None) -> Path | None:
         if not location:
@@ -482,8 +510,25 @@ def scene_text(building: Building, source: str) -> str:
     for space in building.spaces:
         corners = ", ".join(map(_vector, space.outline))
         lines += ["", f"[sensors.{_text(space.name)}]", 'type = "plane"', f"polygon = [{corners}]", "height = 0.75",
-                  "margin = 0.5"]
+                  f"margin = {_margin_m(space.outline):g}"]
     return "\n".join(lines) + "\n"
+
+
+def _margin_m(outline: np.ndarray) -> float:
+    """Of EN 12464-1: 0.5 m, or 15 % of the smallest dimension where that is less. This is taken as the diameter
+    of the largest circle in the outline, among 64 x 64 middles."""
+    starts = outline[:, :2]
+    edges = np.roll(starts, -1, axis=0) - starts
+    least, size = starts.min(axis=0), np.ptp(starts, axis=0)
+    steps = (np.arange(64) + 0.5) / 64
+    points = np.stack(np.meshgrid(*(least + size * steps[:, None]).T), axis=-1).reshape(-1, 1, 2)
+    along = np.clip(((points - starts) * edges).sum(axis=2) / np.maximum((edges**2).sum(axis=1), 1e-12), 0, 1)
+    distances = np.linalg.norm(points - starts - along[:, :, None] * edges, axis=2).min(axis=1)
+    is_past = starts[:, 1] > points[:, :, 1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        crossings = starts[:, 0] + (points[:, :, 1] - starts[:, 1]) / edges[:, 1] * edges[:, 0]
+    is_inside = ((is_past != np.roll(is_past, -1, axis=1)) & (points[:, :, 0] < crossings)).sum(axis=1) % 2 == 1
+    return float(np.floor(100 * min(0.5, 0.15 * 2 * (distances * is_inside).max())) / 100)
 
 
 def _fixture_lines(fixture: Fixture) -> list[str]:
@@ -499,8 +544,7 @@ def _fixture_lines(fixture: Fixture) -> list[str]:
         lines.append(f"cct = {fixture.cct_k:g}")
     if fixture.power_w:
         lines.append(f"power = {fixture.power_w:g}")
-    is_dark = fixture.file is None and fixture.flux_lm is None
-    return [f"# {line}" for line in ["The IFC file states no light of it.", *lines]] if is_dark else lines
+    return [f"# {line}" for line in ["The IFC file states no light of it.", *lines]] if fixture.is_dark() else lines
 
 
 def _vector(vector: np.ndarray) -> str:

@@ -44,20 +44,7 @@ class Builder:
         matrix = np.eye(4)
         matrix[:3, 3] = self.origin + least
         ifcopenshell.api.geometry.edit_object_placement(self.model, product=element, matrix=matrix)
-        x, y, z = (1000 * (b - a) for a, b in zip(least, most))
-        profile = self.model.create_entity(
-            "IfcRectangleProfileDef", ProfileType="AREA", XDim=x, YDim=y,
-            Position=self.model.create_entity("IfcAxis2Placement2D",
-                                              Location=self.model.create_entity("IfcCartesianPoint", (x / 2, y / 2))))
-        solid = self.model.create_entity(
-            "IfcExtrudedAreaSolid", SweptArea=profile, Depth=z,
-            ExtrudedDirection=self.model.create_entity("IfcDirection", (0.0, 0.0, 1.0)),
-            Position=self.model.create_entity("IfcAxis2Placement3D",
-                                              Location=self.model.create_entity("IfcCartesianPoint", (0.0, 0.0, 0.0))))
-        representation = self.model.create_entity("IfcShapeRepresentation", ContextOfItems=self.body,
-                                                  RepresentationIdentifier="Body", RepresentationType="SweptSolid",
-                                                  Items=[solid])
-        ifcopenshell.api.geometry.assign_representation(self.model, product=element, representation=representation)
+        self.add_body(element, [b - a for a, b in zip(least, most)])
         if storey is not None and kind == "IfcSpace":
             ifcopenshell.api.aggregate.assign_object(self.model, relating_object=storey, products=[element])
         elif storey is not None:
@@ -66,16 +53,36 @@ class Builder:
             ifcopenshell.api.material.assign_material(self.model, products=[element], material=material)
         return element
 
+    def add_body(self, element, size, least=(0.0, 0.0, 0.0)):
+        """A box of this size [m], from a corner relative to the element's place."""
+        x, y, z = (1000 * length for length in size)
+        profile = self.model.create_entity(
+            "IfcRectangleProfileDef", ProfileType="AREA", XDim=x, YDim=y,
+            Position=self.model.create_entity("IfcAxis2Placement2D",
+                                              Location=self.model.create_entity("IfcCartesianPoint", (x / 2, y / 2))))
+        solid = self.model.create_entity(
+            "IfcExtrudedAreaSolid", SweptArea=profile, Depth=z,
+            ExtrudedDirection=self.model.create_entity("IfcDirection", (0.0, 0.0, 1.0)),
+            Position=self.model.create_entity("IfcAxis2Placement3D",
+                                              Location=self.model.create_entity("IfcCartesianPoint",
+                                                                                [1000.0 * x for x in least])))
+        representation = self.model.create_entity("IfcShapeRepresentation", ContextOfItems=self.body,
+                                                  RepresentationIdentifier="Body", RepresentationType="SweptSolid",
+                                                  Items=[solid])
+        ifcopenshell.api.geometry.assign_representation(self.model, product=element, representation=representation)
+
     def material(self, name):
         return ifcopenshell.api.material.add_material(self.model, name=name)
 
     def luminaire(self, name, position, storey, location=None, flux=None):
-        """A luminaire at a point [m]: with a light source of this flux, or the name of a photometric file."""
+        """A luminaire at a point [m], in the middle of its body: with a light source of this flux, or the name of a
+        photometric file."""
         element = ifcopenshell.api.root.create_entity(self.model, ifc_class="IfcLightFixture", name=name)
         matrix = np.eye(4)
         matrix[:3, 3] = self.origin + position
         ifcopenshell.api.geometry.edit_object_placement(self.model, product=element, matrix=matrix)
         ifcopenshell.api.spatial.assign_container(self.model, products=[element], relating_structure=storey)
+        self.add_body(element, (0.2, 0.2, 0.1), (-0.1, -0.1, -0.05))
         if flux is not None:
             place = self.model.create_entity("IfcAxis2Placement3D",
                                              Location=self.model.create_entity("IfcCartesianPoint", (0.0, 0.0, 0.0)))
@@ -98,8 +105,9 @@ class Builder:
         return element
 
 
-def write_building(path: Path, photometry=None, origin=(0.0, 0.0, 0.0)):
-    """Writes the building; the upper luminaire has a photometric file, where one is given."""
+def write_building(path: Path, photometry=None, origin=(0.0, 0.0, 0.0), has_shaft=False):
+    """Writes the building; the upper luminaire has a photometric file, where one is given, and a shaft is a space,
+    too, where there is one."""
     build = Builder(origin)
     concrete, plaster, glass = build.material("Concrete C30"), build.material("Gypsum plaster"), build.material("Glass")
     for number, name in enumerate(("Ground floor", "First floor")):
@@ -119,4 +127,6 @@ def write_building(path: Path, photometry=None, origin=(0.0, 0.0, 0.0)):
                         location=photometry if number == 1 else None, flux=2500.0 if number == 0 else None)
     roof = build.storey("Roof")
     build.box("IfcSlab", "Roof slab", (0, 0, 2 * STOREY - SLAB), (LENGTH, WIDTH, 2 * STOREY), roof, concrete)
+    if has_shaft:
+        build.box("IfcSpace", "Shaft", (1, 1, 0), (1.1, 1.2, STOREY - SLAB), roof)
     build.model.write(str(path))

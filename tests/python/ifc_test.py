@@ -117,12 +117,30 @@ class Import(unittest.TestCase):
         with self.assertRaisesRegex(stilb.InputError, "5 is no reflectance"):
             ifc.import_ifc(self.file, self.target, table)
 
+    def test_a_space_too_small_for_a_plane_gets_no_sensor(self):
+        write_building(self.file, "downlight.ies", has_shaft=True)
+        building = ifc.import_ifc(self.file, self.target)
+        self.assertEqual(len(building.warnings), 1)
+        self.assertIn('space "Shaft" gets no sensor: found no floor of a room', building.warnings[0])
+        self.assertEqual(list(tomllib.loads((self.target / "scene.toml").read_text())["sensors"]), ["Room_1", "Room_2"])
+        stilb.load(self.target / "scene.toml")
+
+    def test_margins_are_those_of_the_standard(self):
+        """15 % of the smallest dimension, or 0.5 m; to 30 % of half a diagonal of the 64 x 64 cells."""
+        hall = [[0, 0, 0], [8, 0, 0], [8, 6, 0], [0, 6, 0]]
+        closet = [[0, 0, 1], [0.93, 0, 1], [0.93, 1.52, 1], [0, 1.52, 1]]
+        corridor = [[0, 0, 0], [9, 0, 0], [9, 9, 0], [8, 9, 0], [8, 1, 0], [0, 1, 0]]  # round a corner
+        turn = np.array([[0.6, 0.8, 0], [-0.8, 0.6, 0], [0, 0, 1]])
+        for outline, expected in ((hall, 0.5), (closet, 0.13), (corridor, 0.17)):
+            for place in (np.array(outline, dtype=float), np.array(outline) @ turn + [100, -50, 3]):
+                self.assertAlmostEqual(ifc._margin_m(place), expected, delta=0.03)
+
     def test_what_is_missing_is_named(self):
         (self.folder / "downlight.ies").unlink()
         building = ifc.import_ifc(self.file, self.target)
         text = " ".join(building.warnings)
         self.assertIn('photometric file "downlight.ies" was not found', text)
-        self.assertIn('luminaire "Lamp_2" has neither', text)
+        self.assertIn('no photometric file and no flux is known of the luminaires "Lamp_2": they are in the scene file', text)
         stilb.load(self.target / "scene.toml")  # without that lamp
         for path, part in ((self.folder / "no.ifc", "no such file"), (self.folder / "wrong.ifc", "cannot be read as IFC")):
             (self.folder / "wrong.ifc").write_text("solid ascii\n")
