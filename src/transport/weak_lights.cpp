@@ -21,12 +21,12 @@ struct Strength {
 };
 
 /// The weakest first; without those of no light.
-std::vector<Strength> by_strength(std::span<const double> weights) {
+std::vector<Strength> by_strength(std::span<const double> weights, std::span<const double> strengths) {
     std::map<int, Strength> all;
     for (std::size_t i = 0; i < weights.size(); ++i) {
         if (!(weights[i] > 0)) continue;
-        Strength& own = all[std::ilogb(weights[i])];
-        own.most = std::max(own.most, weights[i]);
+        Strength& own = all[std::ilogb(strengths[i])];
+        own.most = std::max(own.most, strengths[i]);
         own.sum += weights[i];
         own.lights.push_back(i);
     }
@@ -63,14 +63,14 @@ double largest_excess(std::size_t light, double most_lm, const LightsAtPoints& l
 
 }  // namespace
 
-std::vector<double> emission_favours(std::span<const double> weights) {
+std::vector<double> emission_favours(std::span<const double> weights, std::span<const double> strengths) {
     std::vector<double> favours(weights.size(), 1);
-    const std::vector<Strength> strengths = by_strength(weights);
+    const std::vector<Strength> sorted = by_strength(weights, strengths);
     double all = 0, not_stronger = 0;
-    for (const Strength& strength : strengths) all += strength.sum;
-    for (const Strength& strength : strengths) {
+    for (const Strength& strength : sorted) all += strength.sum;
+    for (const Strength& strength : sorted) {
         not_stronger += strength.sum;
-        if (strengths.back().most <= kComparable * strength.most) break;
+        if (sorted.back().most <= kComparable * strength.most) break;
         for (const std::size_t light : strength.lights)
             favours[light] = std::max(1.0, kWeakShare * all / not_stronger);
     }
@@ -79,7 +79,7 @@ std::vector<double> emission_favours(std::span<const double> weights) {
 
 std::vector<double> choice_favours(const LightsAtPoints& lights, const rays::RayCaster& caster) {
     std::vector<double> favours(lights.count, 1);
-    const std::vector<Strength> strengths = by_strength(lights.flux_lm);
+    const std::vector<Strength> strengths = by_strength(lights.flux_lm, lights.flux_lm);
     const std::size_t most_asked = std::clamp<std::size_t>(
         kMostEstimates / (kParticlesOfLight * lights.count * std::max<std::size_t>(strengths.size(), 1)), 1,
         kAsked);

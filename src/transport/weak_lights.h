@@ -15,8 +15,11 @@ namespace stilb::transport {
 
 /// Factors of the lights' shares of emitted particles, so that those of each strength and all weaker ones
 /// together get about kWeakShare of them, or more. 1 for lights that are comparable with the strongest one.
-/// `weights`: not negative.
-std::vector<double> emission_favours(std::span<const double> weights);
+/// `weights`: not negative. `strengths`: the same, where they say how strong each light is.
+std::vector<double> emission_favours(std::span<const double> weights, std::span<const double> strengths);
+inline std::vector<double> emission_favours(std::span<const double> weights) {
+    return emission_favours(weights, weights);
+}
 
 /// The lights of a scene, as choice_favours() needs them.
 struct LightsAtPoints {

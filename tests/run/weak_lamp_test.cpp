@@ -54,6 +54,27 @@ TEST(WeakLamp, InABallBesideOneWithAStrongLamp) {
     }
 }
 
+Scene room_beside_one_with(double strong_lm) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, diffuse(0.6));
+    add_point_light(scene, {2, 2, 2.5}, Rgb::grey(1 / (4 * kPi)));
+    if (strong_lm == 0) return scene;
+    add_object(scene, Box{{4.1, 0, 0}, {8, 4, 3}}, diffuse(0.6));
+    add_point_light(scene, {6, 2, 2.5}, Rgb::grey(strong_lm / (4 * kPi)));
+    return scene;
+}
+
+/// The walls of the other room are nearer and brighter than most of this one's, and hidden.
+TEST(WeakLamp, InARoomBesideOneWithAStrongLamp) {
+    const Sensor sensor{"desk", IlluminancePoints{{{{3, 1, 0.8}, {0, 0, 1}}}}};
+    const auto alone = measured(room_beside_one_with(0), sensor, "path", 1 << 20, 1);
+    ASSERT_LT(alone.standard_error, 3e-4 * alone.value);
+    for (const double strong_lm : {100., 1e3, 1e4, 1e9}) {
+        const Scene scene = room_beside_one_with(strong_lm);
+        expect_value(scene, sensor, "guided", 256, alone.value);
+    }
+}
+
 TEST(WeakLamp, InAClosedBallBelowTheSky) {
     Scene scene;
     add_object(scene, Disk{{0, 0, -1}, {0, 0, 1}, 300}, diffuse(0.7));

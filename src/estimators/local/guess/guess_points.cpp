@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "math/sampling.h"
+#include "transport/weak_lights.h"
 
 namespace stilb::estimators {
 namespace {
@@ -18,18 +19,26 @@ constexpr double kMorePoints = 1.5;
 
 GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster)
     : guess_(guess), caster_(caster), all_(guess.patches().center) {
-    for (const std::uint32_t side : guess.lit_sides()) add(side, all_);
+    std::vector<double> light, luminances_cd_m2;
+    for (const std::uint32_t side : guess.lit_sides()) {
+        luminances_cd_m2.push_back(guess.mean_cd_m2(side).luminance());
+        light.push_back(luminances_cd_m2.back() *
+                        double{guess.patches().areas_m2[guess.patches().patch_of(side)]});
+    }
+    favours_ = transport::emission_favours(light, luminances_cd_m2);
+    for (std::size_t i = 0; i < guess.lit_sides().size(); ++i) add(i, all_);
 }
 
-void GuessPoints::add(std::uint32_t side, KernelChoice& sides) const {
+void GuessPoints::add(std::size_t i, KernelChoice& sides) const {
     const patches::Patches& patches = guess_.patches();
+    const std::uint32_t side = guess_.lit_sides()[i];
     const std::uint32_t patch = patches.patch_of(side);
     const Vec3 middle = patches.middle(patch);
     double radius_m = 0;
     for (const std::uint32_t corner : patches.corners[patch])
         radius_m = std::max(radius_m, length(patches.center + Vec3(patches.vertices[corner]) - middle));
     sides.add(middle, patches.normal_of(side),
-              guess_.mean_cd_m2(side).luminance() * double{patches.areas_m2[patch]}, radius_m);
+              favours_[i] * guess_.mean_cd_m2(side).luminance() * double{patches.areas_m2[patch]}, radius_m);
 }
 
 double GuessPoints::k_per_m2(std::size_t count) const {
@@ -42,10 +51,11 @@ auto GuessPoints::uncertain_sides(std::span<const transport::Receiver> receivers
     const patches::Patches& patches = guess_.patches();
     KernelChoice sides(patches.center);
     double area_m2 = 0;
-    for (const std::uint32_t side : guess_.lit_sides()) {
+    for (std::size_t i = 0; i < guess_.lit_sides().size(); ++i) {
+        const std::uint32_t side = guess_.lit_sides()[i];
         if (sights[side] != Sight::uncertain) continue;
         choice.sides.push_back(side);
-        add(side, sides);
+        add(i, sides);
         area_m2 += double{patches.areas_m2[patches.patch_of(side)]};
     }
     if (choice.sides.empty()) return choice;

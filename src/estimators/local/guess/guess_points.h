@@ -1,5 +1,6 @@
 // Points of the guess's surfaces, chosen for a group of receivers: connections to them bring most of the
-// guessed light (theory T.8). A side is chosen by its luminance, its area and the kernel at its middle.
+// guessed light (theory T.8). A side is chosen by its luminance, its area and the kernel at its middle; where
+// others are much brighter, it has a favour.
 #pragma once
 
 #include <array>
@@ -47,10 +48,14 @@ class GuessPoints {
                 std::vector<EmittingPoint>& points) const;
 
   private:
-    void add(std::uint32_t side, KernelChoice& sides) const;
+    /// `i`: the number among the lit sides.
+    void add(std::size_t i, KernelChoice& sides) const;
 
     const LightGuess& guess_;
     const rays::RayCaster& caster_;
+    /// By lit sides: those of a room with weak lamps are chosen although walls of other rooms are brighter,
+    /// which may be hidden.
+    std::vector<double> favours_;
     KernelChoice all_;  ///< the guess's lit sides
 };
 
