@@ -41,9 +41,8 @@ class Enclosures {
   public:
     Enclosures(const Scene& scene, const rays::RayCaster& caster);
 
-    /// The enclosure of a light that the point sees. Else boxes by the point's coordinates, because rays meet
-    /// only one of two boxes that share a wall, and other objects by the parity of the hits along three rays
-    /// into the hemisphere of the probe's direction, by majority.
+    /// The enclosure of a light that the point sees. Else by the parity of the surfaces that three rays into
+    /// the hemisphere of the probe's direction cross, by majority.
     Enclosure enclosure_of(const ProbeRay& probe_ray) const;
     /// The enclosures where each light's rays start: one for points, those around the parts of an emitting
     /// object, the outside of all components for light from infinity.
@@ -70,10 +69,9 @@ class Enclosures {
     };
 
     void join_cut_lamps();
-    /// The component that a ray has met, if it is closed.
-    std::optional<ComponentId> closed_component(const rays::Hit& hit) const;
+    /// The component that a ray crosses, if it is closed.
+    std::optional<ComponentId> closed_component(const rays::Crossing& crossing) const;
     Enclosure voted_enclosure(const ProbeRay& probe_ray) const;
-    Enclosure boxes_around(const Vec3& point) const;
     Enclosure crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const;
 
     const Scene& scene_;
@@ -149,8 +147,8 @@ std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaste
 // Points that belong to no area.
 
 /// The sensors, without those points of areas that are not measured, because they stand inside of a body or
-/// outside of the room (a closed surface separates them from all lights), or a surface covers them. The areas
-/// count them. Throws InputError where an area has no other points.
+/// outside of the room (a closed surface separates them from all lights, but not all points of the area), or
+/// a surface covers them. The areas count them. Throws InputError where all of an area is covered.
 std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCaster& caster,
                                           std::span<const Sensor> sensors);
 

@@ -20,8 +20,6 @@ constexpr std::array<Vec3, 3> kDirections{
 constexpr std::array<Vec3, 6> kAround{{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
 /// Where probes of a disk start, beside its middle: at this share of the radius.
 constexpr double kNearRim = 0.8;
-/// Rays through more surfaces than this are ignored.
-constexpr int kMostCrossings = 10'000;
 /// Lights whose visibility is tested before the enclosure of a point is determined.
 constexpr std::size_t kMostLightsTried = 8;
 
@@ -136,10 +134,10 @@ void Enclosures::join_cut_lamps() {
     }
 }
 
-std::optional<ComponentId> Enclosures::closed_component(const rays::Hit& hit) const {
-    ComponentId id{hit.object, components_[index_of(hit.object)].of_triangle[hit.triangle]};
-    if (const auto lamp = cut_lamps_.find(hit.object); lamp != cut_lamps_.end()) {
-        const std::uint32_t component = lamp->second.component_of_triangle[hit.triangle];
+std::optional<ComponentId> Enclosures::closed_component(const rays::Crossing& crossing) const {
+    ComponentId id{crossing.object, components_[index_of(crossing.object)].of_triangle[crossing.triangle]};
+    if (const auto lamp = cut_lamps_.find(crossing.object); lamp != cut_lamps_.end()) {
+        const std::uint32_t component = lamp->second.component_of_triangle[crossing.triangle];
         const bool is_part = component < components_[index_of(lamp->second.from)].count();
         if (is_part) id = {lamp->second.from, component};
     }
@@ -167,16 +165,10 @@ std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
 
 Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const {
     Enclosure crossed;
-    Vec3 from = origin;
-    for (int i = 0; i < kMostCrossings; ++i) {
-        const auto hit = caster_.closest(from, direction);
-        if (!hit) break;
-        const auto component = closed_component(*hit);
+    for (const rays::Crossing& crossing : caster_.crossings(origin, direction)) {
+        const auto component = closed_component(crossing);
         // Glass encloses nothing.
-        const bool encloses = component && !transmits(scene_.material(hit->material));
-        if (encloses && !std::holds_alternative<Box>(scene_.object(hit->object).shape))
-            crossed.push_back(*component);
-        from = hit->position - (hit->lifted - hit->position);  // just behind the surface
+        if (component && !transmits(scene_.material(crossing.material))) crossed.push_back(*component);
     }
     std::sort(crossed.begin(), crossed.end());
     Enclosure odd;
@@ -188,19 +180,6 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
     return odd;
 }
 
-Enclosure Enclosures::boxes_around(const Vec3& point) const {
-    Enclosure around;
-    for (std::size_t i = 0; i < scene_.objects.size(); ++i) {
-        const Object& object = scene_.objects[i];
-        const auto* box = std::get_if<Box>(&object.shape);
-        if (!box || transmits(scene_.material(object.materials[0]))) continue;
-        const Vec3 above = point - box->min, below = box->max - point;
-        if (std::min({above.x, above.y, above.z, below.x, below.y, below.z}) > 0)
-            around.push_back({static_cast<ObjectId>(i), 0});
-    }
-    return around;
-}
-
 Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
     std::array<Enclosure, 3> votes;
     for (std::size_t i = 0; i < votes.size(); ++i) {
@@ -208,7 +187,7 @@ Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
         const bool is_outwards = dot(d, probe_ray.direction) > 0;
         votes[i] = crossed_an_odd_number_of_times(probe_ray.position, is_outwards ? d : -d);
     }
-    Enclosure enclosure = boxes_around(probe_ray.position);
+    Enclosure enclosure;
     const auto add_common = [&](const Enclosure& a, const Enclosure& b) {
         std::set_intersection(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(enclosure));
     };

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "checks/checks.h"
@@ -12,21 +13,27 @@ namespace {
 /// A surface so close above a point covers it: it stands in a thing, or under it.
 constexpr double kCovering_m = 0.02;
 
-/// Whether a body hides a point from all lights, or covers it.
+/// Whether something covers a point, or bodies hide it from all lights.
 class HiddenPoints {
   public:
     HiddenPoints(const Scene& scene, const rays::RayCaster& caster)
         : scene_(scene), caster_(caster), enclosures_(scene, caster) {}
 
-    bool contain(const MeasuringPoint& point) const {
-        const ProbeRay probe{lifted_position(point, caster_), point.normal};
+    bool is_covered(const MeasuringPoint& point) const {
+        const ProbeRay probe = probe_of(point);
         const auto above = caster_.closest(probe.position, probe.direction);
-        if (above && above->distance_m < kCovering_m && !transmits(scene_.material(above->material)))
-            return true;
-        return !scene_.lights.empty() && !enclosures_.is_lit(enclosures_.enclosure_of(probe));
+        return above && above->distance_m < kCovering_m && !transmits(scene_.material(above->material));
+    }
+
+    bool is_dark(const MeasuringPoint& point) const {
+        return !scene_.lights.empty() && !enclosures_.is_lit(enclosures_.enclosure_of(probe_of(point)));
     }
 
   private:
+    ProbeRay probe_of(const MeasuringPoint& point) const {
+        return {lifted_position(point, caster_), point.normal};
+    }
+
     const Scene& scene_;
     const rays::RayCaster& caster_;
     Enclosures enclosures_;
@@ -42,15 +49,19 @@ std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCas
         auto* const area = std::get_if<Area>(&sensor.kind);
         if (!area) continue;
         if (!hidden) hidden.emplace(scene, caster);
-        area->left_out +=
-            std::erase_if(area->points, [&](const MeasuringPoint& point) { return hidden->contain(point); });
+        const auto is_covered = [&](const MeasuringPoint& point) { return hidden->is_covered(point); };
+        const auto is_dark = [&](const MeasuringPoint& point) { return hidden->is_dark(point); };
+        area->left_out += std::erase_if(area->points, is_covered);
         if (area->points.empty()) {
             throw InputError(
-                fmt::format("sensor \"{}\": all {} points of the area are inside of bodies, right below a "
-                            "surface, or outside of "
-                            "the room. Move the area, or choose another height.",
+                fmt::format("sensor \"{}\": all {} points of the area are right below a surface. Move the "
+                            "area, or choose "
+                            "another height.",
                             sensor.name, area->left_out));
         }
+        // Dark points among lit ones stand in furniture. Where all are dark, it is the room that has no lamp.
+        if (!std::ranges::all_of(area->points, is_dark))
+            area->left_out += std::erase_if(area->points, is_dark);
     }
     return sensors;
 }

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/vec.h"
+#include "rays/crossings.h"
 #include "rays/embree_geometry.h"
 #include "rays/few_triangles.h"
 #include "rays/packet_parts.h"
@@ -420,6 +421,19 @@ std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction)
     rtcIntersect1(implementation_->embree_scene, &context, &ray_hit);
     if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
     return implementation_->hit_of(ray_hit);
+}
+
+std::vector<Crossing> RayCaster::crossings(const Vec3& origin, const Vec3& direction) const {
+    const Implementation& own = *implementation_;
+    std::vector<Crossing> crossings;
+    for (const auto& [object, primitive] :
+         crossed_primitives(own.embree_scene, own.geometries,
+                            Implementation::ray_from(origin - center(), direction, kInfinity))) {
+        const EmbreeGeometry& geometry = *own.geometries[object];
+        const std::uint32_t triangle = geometry.curved ? 0 : geometry.triangle_of(primitive);
+        crossings.push_back({ObjectId{object}, own.material_of(object, triangle), triangle});
+    }
+    return crossings;
 }
 
 void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,

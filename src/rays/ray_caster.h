@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/ids.h"
 #include "base/monitor.h"
@@ -43,6 +44,13 @@ struct Hit {
 
     /// The counterpart of `lifted` on the other side.
     Vec3 lifted_behind() const { return lifted - 2 * lift_m * normal; }
+};
+
+/// A surface that a ray crosses.
+struct Crossing {
+    ObjectId object{};
+    MaterialId material{};
+    std::uint32_t triangle = 0;  ///< as Hit::triangle
 };
 
 struct Ray {
@@ -86,7 +94,9 @@ class RayCaster {
 
     /// The first surface that a ray from `origin` along the unit vector `direction` meets.
     std::optional<Hit> closest(const Vec3& origin, const Vec3& direction) const;
-    /// The same of many rays, into as many hits.
+    /// All surfaces that the ray crosses, in any order; of several in one plane each.
+    std::vector<Crossing> crossings(const Vec3& origin, const Vec3& direction) const;
+    /// The closest hits of many rays, into as many.
     void closest(std::span<const Ray> rays, Coherence coherence, std::span<std::optional<Hit>> hits) const;
 
     /// The same of a packet, for lanes that are set; directions need not be unit vectors, and components as

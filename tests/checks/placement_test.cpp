@@ -277,5 +277,25 @@ TEST(Placement, ALampMayStandHalfInTheWall) {
     }
 }
 
+/// Walls of buildings stand on slabs and under ceilings, whose layers touch. A partition parts the lamp from
+/// most points, but for a passage, so that rays must tell where these are.
+TEST(Placement, PartsOfABuildingThatTouchEncloseThemselvesAlone) {
+    Scene scene;
+    scene.materials.push_back({"wall", Diffuse{Rgb::grey(0.5)}});
+    const auto add = [&](const Vec3& min, const Vec3& max) {
+        scene.objects.push_back({"part", triangulated(Box{min, max}), {MaterialId{0}}});
+    };
+    add({0, 0, -0.2}, {8, 5, 0}), add({0, 0, -0.4}, {8, 5, -0.2});                            // slabs
+    add({0, 0, 2.7}, {8, 5, 2.9}), add({3, 0, 2.9}, {8, 5, 3}), add({0, 0, 3}, {8, 4, 3.1});  // ceilings
+    add({0, 0, 0}, {0.2, 5, 2.7}), add({7.8, 0, 0}, {8, 5, 2.7}), add({0.2, 0, 0}, {7.8, 0.2, 2.7});
+    add({0.2, 4.8, 0}, {7.8, 5, 2.7}), add({8, 0, -0.2}, {8.1, 5, 2.9});
+    add({3, 0.2, 0}, {3.1, 4, 2.7}), add({3.1, 0.2, 0}, {3.2, 4, 2.7});  // the partition's layers
+    scene.lights.push_back({"bulb", bulb({1, 1, 2.5})});
+    const Sensor floor{"floor", Grid{{0.3, 0.3, 0.75}, {7.4, 0, 0}, {0, 4.4, 0}, {20, 10}}};
+    const Texts warnings = warnings_of(scene, {floor});
+    ASSERT_EQ(warnings.size(), 1u);  // a column of points stands in the partition
+    EXPECT_TRUE(has(warnings[0], "8 of 200 points lie inside object \"part\"")) << warnings[0];
+}
+
 }  // namespace
 }  // namespace stilb::checks

@@ -308,6 +308,29 @@ TEST(Areas, LeaveOutPointsRightBelowASurface) {
     EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 16U);
 }
 
+/// Of two rooms one has a lamp; the task area of the other is measured whole, and its readings are 0.
+TEST(Areas, RoomsWithoutLampsAreDark) {
+    Scene scene = room();
+    add_object(scene, Box{{5, 0, 0}, {9, 4, 3}}, diffuse(0.5));
+    const std::vector<Sensor> sensors{desk(),
+                                      area({{5, 0, 0.8}, {9, 0, 0.8}, {9, 4, 0.8}, {5, 4, 0.8}}, 0.5)};
+    const RunResult result = measure(scene, sensors, options_for("path"));
+    EXPECT_GT(result.sensors.at(0).summary.minimum.value, 0);
+    EXPECT_EQ(std::get<Area>(result.sensors.at(1).sensor.kind).left_out, 0U);
+    EXPECT_EQ(result.sensors.at(1).readings.size(), 64U);
+    EXPECT_EQ(result.sensors.at(1).summary.mean.value, 0);
+    EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const std::string& warning) {
+        return warning.find("sensor \"area\": 64 of 64 points lie") != std::string::npos;
+    }));
+}
+
+TEST(Areas, WhollyBelowASurfaceAreAnError) {
+    Scene scene = room();
+    add_object(scene, Rectangle{{2, 2, 0.36}, {2, 0, 0}, {0, 2, 0}}, diffuse(0.3));
+    const Sensor floor = area({{2, 2, 0.35}, {4, 2, 0.35}, {4, 4, 0.35}, {2, 4, 0.35}}, 0.25);
+    EXPECT_THROW(measure(scene, {&floor, 1}, options_for("path")), InputError);
+}
+
 TEST(Areas, MeasureAsGridsDo) {
     const Sensor polygon = area({{0.5, 2.5, 0.8}, {3.5, 2.5, 0.8}, {3.5, 3.5, 0.8}, {0.5, 3.5, 0.8}}, 0.5);
     const Sensor grid{"grid", Grid{{0.5, 2.5, 0.8}, {3, 0, 0}, {0, 1, 0}, {6, 2}}};
@@ -352,9 +375,12 @@ TEST(PowerDensity, IsUnknownWithoutPowerOrArea) {
     EXPECT_FALSE(measure(scene, {&grid, 1}, options_for("path")).power_density);
 }
 
-TEST(Areas, NeedAPointInTheOpen) {
+TEST(Areas, WhollyInABodyAreDark) {
     const Sensor buried = area({{1.2, 1.2, 0.35}, {1.8, 1.2, 0.35}, {1.8, 1.8, 0.35}}, 0.1);
-    EXPECT_THROW(measure(room(), {&buried, 1}, options_for("path")), InputError);
+    const RunResult result = measure(room(), {&buried, 1}, options_for("path"));
+    EXPECT_EQ(result.sensors.at(0).summary.mean.value, 0);
+    ASSERT_FALSE(result.warnings.empty());
+    EXPECT_NE(result.warnings[0].find("which contains no light"), std::string::npos) << result.warnings[0];
 }
 
 }  // namespace
