@@ -136,6 +136,18 @@ INSTANTIATE_TEST_SUITE_P(Files, RadianceLuminaires,
                          testing::Values("box", "cylinder", "ball", "half", "whole"),
                          [](const auto& of) { return std::string(of.param); });
 
+/// Radiance's illuminance is L A cos / (d + focus)^2: a quarter at 2 m, for a focus as far behind.
+TEST(RadianceLamps, SpotlightsWithAFocusAreWarnedOf) {
+    const SceneFile file =
+        read_rad("void spotlight beam 0 0 7 50 50 50 40 0 0 -2\nbeam ring r 0 0 8 0 0 3 0 0 -1 0 .1\n");
+    ASSERT_EQ(file.warnings.size(), 1u);
+    EXPECT_NE(
+        file.warnings[0].find("from a focus 2 m behind it, the length of its direction: 2 m away this is 4 "
+                              "times Radiance's illuminance"),
+        std::string::npos)
+        << file.warnings[0];
+}
+
 TEST(RadianceLamps, SpotlightsEmitInTheirConeOnly) {
     const SceneFile file =
         read_rad("void spotlight beam 0 0 7 50 50 50 40 .001 0 -.001\nbeam ring r 0 0 8 0 0 3 0 0 -1 0 .1\n");

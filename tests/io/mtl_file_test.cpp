@@ -79,6 +79,15 @@ TEST(MtlFile, OptionsOfPicturesAreNoNames) {
     EXPECT_EQ(one("map_Kd -s 2 2 1 -o 1 0 t.png\n").diffuse_map.scale, (std::array{2.0, 2.0}));
 }
 
+/// As Maya writes it.
+TEST(MtlFile, APictureCountsAloneBesideKdOfZero) {
+    const MtlMaterial beside_zero = one("Kd 0.00 0.00 0.00\nmap_Kd wood.bmp\n");
+    EXPECT_EQ(beside_zero.diffuse, Rgb::grey(1));
+    EXPECT_EQ(beside_zero.remarks, Remarks{"Kd 0 would make its map_Kd black; the picture alone counts."});
+    EXPECT_EQ(one("Kd 0 0 0.01\nmap_Kd wood.bmp\n").diffuse, (Rgb{{0, 0, 0.01}}));
+    EXPECT_EQ(one("Kd 0 0 0\nmap_Ks wood.bmp\n").diffuse, Rgb());
+}
+
 TEST(MtlFile, NamesInLatin1BecomeUtf8) {
     EXPECT_EQ(read_mtl("newmtl K\xfc"
                        "che\n")

@@ -44,6 +44,7 @@ class MtlReader {
         const bool is_opacity = std::ranges::any_of(materials_, &Stated::has_opacity_in_tr);
         for (Stated& stated : materials_) {
             set_opacity(stated, is_opacity);
+            let_picture_count(stated.material);
             library.materials.push_back(std::move(stated.material));
         }
         return library;
@@ -168,6 +169,13 @@ class MtlReader {
         } else if (tr) {
             material.opacity = 1 - *tr;
         }
+    }
+
+    /// Some exporters write Kd 0 beside a picture, which it would make black.
+    static void let_picture_count(MtlMaterial& material) {
+        if (material.diffuse_map.file.empty() || material.diffuse.max() > 0) return;
+        material.diffuse = Rgb::grey(1);
+        material.remarks.push_back("Kd 0 would make its map_Kd black; the picture alone counts.");
     }
 
     static constexpr double kRounding = 1e-3;
