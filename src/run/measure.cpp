@@ -101,40 +101,63 @@ std::vector<std::string> patch_error_warnings(const RunResult& result) {
     return warnings;
 }
 
-/// " at 3 of 12 readings", where there are several.
-std::string at_readings(std::size_t count, const Sensor& sensor) {
-    const std::size_t all = sensor.size();
-    return all == 1 ? "" : fmt::format(" at {} of {} readings", count, all);
-}
+/// Sensors, each with the share of its readings of which a warning speaks.
+class ConcernedSensors {
+  public:
+    void add(const Sensor& sensor, std::size_t readings) {
+        names_.push_back(fmt::format("\"{}\"", sensor.name));
+        shares_.push_back(sensor.size() == 1 ? ""
+                                             : fmt::format("{} of {} readings", readings, sensor.size()));
+    }
 
-/// Warns of readings whose light was found by few samples, or by none.
-std::vector<std::string> rarity_warnings(const Campaign::Estimates& estimates, std::uint64_t samples,
-                                         const Sensor& sensor) {
-    std::size_t dark = 0, uncertain = 0;
-    for (std::size_t j = 0; j < sensor.size(); ++j) {
-        const bool is_dark = estimates.readings[j].value == 0;
-        dark += is_dark;
-        uncertain += !is_dark &&
-                     rests_on_few_samples(estimates.readings[j], estimates.largest[j], estimates.samples[j]);
+    /// One sentence, if there are any: `sensor "desk": BEGINNING at 3 of 12 readings. END`, or
+    /// `sensors "desk" (3 of 12 readings), "wall": BEGINNING. END`.
+    void warn(std::string_view beginning, std::string_view end, std::vector<std::string>& warnings) const {
+        if (names_.empty()) return;
+        if (names_.size() == 1) {
+            const std::string at = shares_[0].empty() ? "" : " at " + shares_[0];
+            return warnings.push_back(fmt::format("sensor {}: {}{}. {}", names_[0], beginning, at, end));
+        }
+        std::string list;
+        for (std::size_t i = 0; i < names_.size(); ++i) {
+            list += (i == 0 ? "" : ", ") + names_[i];
+            if (!shares_[i].empty()) list += " (" + shares_[i] + ")";
+        }
+        warnings.push_back(fmt::format("sensors {}: {}. {}", list, beginning, end));
     }
-    std::vector<std::string> warnings;
-    if (dark > 0) {
-        warnings.push_back(
-            fmt::format("sensor \"{}\": {} samples found no light{}. If light gets there, the run needs more "
-                        "paths or more time to find it.",
-                        sensor.name, samples, at_readings(dark, sensor)));
+
+  private:
+    std::vector<std::string> names_, shares_;
+};
+
+/// Sensors with readings whose light was found by few samples, or by none.
+struct RareLight {
+    ConcernedSensors dark, uncertain;
+
+    void add(const Campaign::Estimates& estimates, const Sensor& sensor) {
+        std::size_t dark_readings = 0, uncertain_readings = 0;
+        for (std::size_t j = 0; j < sensor.size(); ++j) {
+            const bool is_dark = estimates.readings[j].value == 0;
+            dark_readings += is_dark;
+            uncertain_readings +=
+                !is_dark &&
+                rests_on_few_samples(estimates.readings[j], estimates.largest[j], estimates.samples[j]);
+        }
+        if (dark_readings > 0) dark.add(sensor, dark_readings);
+        // As for the limit on the error, the worst readings of a large sensor do not count.
+        const double tolerated = (1 - statistics::kReadingShare) * static_cast<double>(sensor.size());
+        if (static_cast<double>(uncertain_readings) > tolerated) uncertain.add(sensor, uncertain_readings);
     }
-    // As for the limit on the error, the worst readings of a large sensor do not count.
-    const double tolerated = (1 - statistics::kReadingShare) * static_cast<double>(sensor.size());
-    if (static_cast<double>(uncertain) > tolerated) {
-        warnings.push_back(
-            fmt::format("sensor \"{}\": a few rare light paths make up much of the light, or of its error{}. "
-                        "More of them may be missing, so that the interval is too narrow: give the run more "
-                        "paths or more time.",
-                        sensor.name, at_readings(uncertain, sensor)));
+
+    void warn(std::uint64_t samples, std::vector<std::string>& warnings) const {
+        dark.warn(fmt::format("{} samples found no light", samples),
+                  "If light gets there, the run needs more paths or more time to find it.", warnings);
+        uncertain.warn("a few rare light paths make up much of the light, or of its error",
+                       "More of them may be missing, so that the interval is too narrow: give the run more "
+                       "paths or more time.",
+                       warnings);
     }
-    return warnings;
-}
+};
 
 /// `first`: of the sensor's readings.
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, SensorEstimates&& estimates,
@@ -185,13 +208,14 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
     std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence);
     std::vector<double> attained;
     std::vector<std::vector<GlareView>> views;
+    RareLight rare_light;
     for (std::size_t s = 0; s < sensors.size(); ++s) {
         views.push_back(glare.described_views(s, estimates[s], scene));
         attained.push_back(statistics::attained_error(estimates[s].readings.readings));
-        if (scene.lights.empty()) continue;  // all is dark; the scene reader warns of it
-        std::ranges::move(rarity_warnings(estimates[s].readings, campaign.samples_in_all(), sensors[s]),
-                          std::back_inserter(result.warnings));
+        rare_light.add(estimates[s].readings, sensors[s]);
     }
+    // Without lights all is dark; the scene reader warns of it.
+    if (!scene.lights.empty()) rare_light.warn(campaign.samples_in_all(), result.warnings);
     result.power_density = power_density(result.power, sensors, estimates, confidence);
     std::ranges::move(glare.warnings(scene, sensors, estimates), std::back_inserter(result.warnings));
     glare.rate(estimates, confidence);

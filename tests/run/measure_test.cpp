@@ -118,6 +118,16 @@ TEST(Measure, WarnsWhereItFoundNoLight) {
     EXPECT_TRUE(has_warning(result, "4096 samples found no light"));
 }
 
+TEST(Measure, WarnsOfSeveralDarkSensorsOnce) {
+    const Sensor dark = at_point({4.5, 0.5, 0}, {0, 0, 1});
+    Sensor pair{"pair", IlluminancePoints{{{{4.5, 0.6, 0}, {0, 0, 1}}, {{1, 2, 0}, {0, 0, 1}}}}};
+    const std::vector<Sensor> sensors{dark, pair};
+    const RunResult result = measure(keyhole(), sensors, options_for("auto"));
+    EXPECT_TRUE(has_warning(
+        result,
+        "sensors \"point\", \"pair\" (1 of 2 readings): 4096 samples found no light. If light gets there"));
+}
+
 TEST(Measure, WarnsWhereFewPathsCarryTheLight) {
     RunOptions options = options_for("path");
     options.paths = 1 << 17;
