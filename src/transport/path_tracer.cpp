@@ -105,7 +105,7 @@ void PathTracer::add_stored_reflection(std::span<Path> paths, rays::Coherence co
 std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
     const auto branch =
         choose_specular_ray(material, path.hit, path.outgoing, Carried::luminance, path.stream.next());
-    const double survival = branch ? survival_probability(path.throughput, branch->share) : 0;
+    const double survival = branch ? patient_survival_probability(path.throughput, branch->share) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
     path.throughput *= branch->share * (branch->luminance_factor / survival);
     if (!branch->straight) {

@@ -77,6 +77,26 @@ void expect_agreement(const Scene& scene) {
     EXPECT_LT(estimate.standard_error, 0.02 * level.mean());
 }
 
+/// What panes absorb is a factor, not the end of paths by chance: the sky is seen through windows.
+TEST(PathTracer, PanesWeakenPathsInPlaceOfEndingThem) {
+    Scene scene;
+    for (const double x : {1.0, 1.1})
+        add_object(scene, Rectangle{{x, -1, -1}, {0, 2, 0}, {0, 0, 2}}, ThinDielectric{1, Rgb::grey(0.88)});
+    add_environment(scene, Rgb::grey(1));
+    const Traced traced(scene);
+    const auto pane = traced.caster.closest({0, 0, 0}, {1, 0, 0});
+    statistics::RunningMoments seen;
+    for (std::uint64_t i = 0; i < 4096; ++i) {
+        math::SampleStream stream(math::RandomKey{7}, i, 8);
+        seen.add(
+            traced.tracer.luminance_behind(pane.value(), {1, 0, 0}, {}, kReflections, stream).luminance());
+    }
+    // One of a thousand paths ends at each.
+    const double expected = 0.88 * 0.88, deviation = expected * std::sqrt(2e-3);
+    EXPECT_NEAR(seen.mean(), expected, 4 * deviation / std::sqrt(4096));
+    EXPECT_LT(std::sqrt(seen.variance()), 2 * deviation);
+}
+
 TEST(PathWave, AgreesWithSinglePathsUnderAPanel) {
     Scene scene = mixed_room();
     add_area_light(scene, panel({1.2, 1.2, 2.99}, 0.6, 0.5), 100 * kWhite, diffuse(0.5));
