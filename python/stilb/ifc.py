@@ -36,8 +36,9 @@ REFLECTANCES_BY_KIND = {"IfcSlab": 0.3, "IfcCovering": 0.7, "IfcWall": 0.5, "Ifc
                         "IfcFurniture": 0.4, "IfcFurnishingElement": 0.4}
 REFLECTANCE_OTHERWISE = 0.5
 GLASS_WORDS = ("glass", "glas", "verre", "glazing")
-#: Of both faces of a glazing together, along the normal.
-GLASS_TRANSMITTANCE = 0.78
+#: A solid of glass has two faces, each of which is a pane here. Two panes of this glass pass 78 % along the normal, as
+#: double glazing does, and less at an angle.
+GLASS = ("ior = 1.5", "internal_transmittance = 0.9543")
 #: Spaces, holes and drawings are no surfaces.
 NO_SURFACES = ("IfcSpace", "IfcOpeningElement", "IfcAnnotation", "IfcGrid", "IfcVirtualElement")
 PHOTOMETRY = (".ies", ".ldt")
@@ -497,8 +498,7 @@ def scene_text(building: Building, source: str) -> str:
     for material in building.materials.values():
         lines += ["", f"[materials.{_text(material.name)}]" + (f"  # {material.reason}" if material.reason else "")]
         if material.is_glass:
-            # A solid has two faces, each of which is a sheet here.
-            lines += ['type = "pane"', "ior = 1.0", f"internal_transmittance = {GLASS_TRANSMITTANCE**0.5:.4g}"]
+            lines += ['type = "pane"', *GLASS]
         else:
             lines += ['type = "diffuse"', f"reflectance = {material.reflectance:g}"]
     for storey in building.storeys:

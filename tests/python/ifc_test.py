@@ -26,7 +26,7 @@ def ground_floor():
     top = STOREY - SLAB
     text = "".join(f'[materials.{name}]\ntype = "diffuse"\nreflectance = {value}\n'
                    for name, value in (("concrete", 0.35), ("plaster", 0.7)))
-    text += '[materials.glass]\ntype = "pane"\nior = 1.0\ninternal_transmittance = 0.8832\n'
+    text += '[materials.glass]\ntype = "pane"\nior = 1.5\ninternal_transmittance = 0.9543\n'
     text += box("floor", (0, 0, -SLAB), (LENGTH, WIDTH, 0), "concrete")
     text += box("above", (0, 0, top), (LENGTH, WIDTH, STOREY), "concrete")
     for name, least, most in (("below", (0, 0, 0), (LENGTH, WALL, 0.9)), ("lintel", (0, 0, 2.1), (LENGTH, WALL, top)),
@@ -75,6 +75,19 @@ class Import(unittest.TestCase):
         self.assertLess(abs(imported.mean.value - boxes.mean.value), float(np.hypot(*widths)))
         self.assertLess(max(widths), 0.03 * imported.mean.value)
         self.assertGreater(imported.mean.value, 20)
+
+    def test_both_faces_of_a_glazing_pass_78_percent(self):
+        ifc.import_ifc(self.file, self.target)
+        glass = tomllib.loads((self.target / "scene.toml").read_text())["materials"]["Glass"]
+        text = "".join(f'[objects.face_{y}]\nshape = "rectangle"\ncorner = [-1, {y}, -1]\nedge_u = [2, 0, 0]\n'
+                       'edge_v = [0, 0, 2]\nmaterial = "glass"\n' for y in (1, 2))
+        text += f'[materials.glass]\ntype = "pane"\nior = {glass["ior"]}\n'
+        text += f'internal_transmittance = {glass["internal_transmittance"]}\n'
+        text += '[lights.sky]\ntype = "sphere"\ncenter = [0, 9, 0]\nradius = 3\nluminance = 1000\n'
+        (self.folder / "glass.toml").write_text(text)
+        seen = stilb.load(self.folder / "glass.toml").luminance([[0, 0, 0]], [[0, 1, 0]], paths=PATHS)
+        self.assertAlmostEqual(seen.value[0], 780, delta=4 * seen.standard_error[0] + 0.1)
+        self.assertLess(seen.standard_error[0], 2)
 
     def test_map_coordinates_keep_micrometres(self):
         origin = np.array([690123.456789, 5330456.789012, 512.340001])
