@@ -92,6 +92,26 @@ TEST(WorkingPlanes, DoorsPartRoomsAndWideOpeningsDoNot) {
     }
 }
 
+/// As in buildings of CAD programs: a slab reaches below walls of 0.3 m and beyond, to an open terrace, and
+/// the leaves of the door have slits of 3 mm.
+TEST(WorkingPlanes, NeitherTheInsidesOfWallsNorSlitsCount) {
+    Scene scene;
+    const auto add = [&](const Vec3& min, const Vec3& max) {
+        add_object(scene, triangulated(Box{min, max}), diffuse(0.5));
+    };
+    add({-0.3, -8, -0.3}, {6.3, 4.3, 0}), add({-0.3, -0.3, 2.5}, {6.3, 4.3, 2.8});
+    add({-0.3, -0.3, 0}, {0, 4.3, 2.5}), add({6, -0.3, 0}, {6.3, 4.3, 2.5}), add({0, 4, 0}, {6, 4.3, 2.5});
+    add({0, -0.3, 0}, {2, 0, 2.5}), add({4, -0.3, 0}, {6, 0, 2.5}), add({2, -0.3, 2.1}, {4, 0, 2.5});
+    add({2.003, -0.2, 0.003}, {2.997, -0.15, 2.097}), add({3, -0.2, 0.003}, {3.997, -0.15, 2.097});
+    for (const double margin_m : {0.5, 0.2, 0.02}) {
+        const auto planes = planes_in(scene, {0.8, margin_m});
+        ASSERT_EQ(planes.size(), 1u) << margin_m;
+        const double niche_m2 = (2 - 2 * margin_m) * 0.15;  // up to the door's leaves
+        EXPECT_NEAR(area_m2(planes[0].polygon), (6 - 2 * margin_m) * (4 - 2 * margin_m) + niche_m2,
+                    kRounding);
+    }
+}
+
 TEST(WorkingPlanes, FurnitureIsNeitherAFloorNorAWall) {
     Scene scene = room(6, 4);
     add_object(scene, Box{{1, 1, 0}, {3, 2, 0.72}}, diffuse(0.3));                      // a desk

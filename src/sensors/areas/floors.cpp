@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <map>
 #include <set>
@@ -24,6 +25,8 @@ constexpr double kEdgeStep_m = 0.1, kBeside_m = 0.02, kAbove_m = 0.01;
 /// Heights at which a wall or a railing may bar an edge: skirtings and slits may be at its foot.
 constexpr std::array<double, 3> kBarred_m{kAbove_m, 0.1, 1};
 constexpr double kMostSteps = 1. / 3;
+/// What is narrower belongs to no room: the insides of walls, slits beside doors.
+constexpr double kNarrow_m = 0.5;
 
 /// All objects but lamps, as triangles.
 struct Surface {
@@ -171,10 +174,28 @@ Paths section_at(std::span<const Surface> surfaces, double z) {
     return lines;
 }
 
+/// A part as it is; but where it is narrow in between, each side of that; nothing where it is narrow
+/// everywhere.
+std::vector<Piece> cut_where_narrow(Piece part) {
+    const std::vector<Piece> wide =
+        pieces_of(widened(part.paths(), ClipperLib::etClosedPolygon, -kNarrow_m / 2));
+    if (wide.size() == 1) return {std::move(part)};
+    std::vector<Piece> sides;
+    for (const Piece& piece : wide) {
+        const Paths whole = widened(piece.paths(), ClipperLib::etClosedPolygon, kNarrow_m / 2);
+        std::ranges::move(pieces_of(combined(part.paths(), ClipperLib::ctIntersection, whole)),
+                          std::back_inserter(sides));
+    }
+    return sides;
+}
+
 /// The parts of a horizontal surface on the sides of walls: a house and its grounds may be one surface.
 std::vector<Piece> parts_between(const Piece& piece, const Paths& walls) {
-    return pieces_of(combined(piece.paths(), ClipperLib::ctDifference,
-                              widened(walls, ClipperLib::etOpenSquare, kLeastMargin_m)));
+    std::vector<Piece> parts;
+    for (Piece& part : pieces_of(combined(piece.paths(), ClipperLib::ctDifference,
+                                          widened(walls, ClipperLib::etOpenSquare, kLeastMargin_m))))
+        std::ranges::move(cut_where_narrow(std::move(part)), std::back_inserter(parts));
+    return parts;
 }
 
 struct Floor {
