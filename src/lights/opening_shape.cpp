@@ -5,8 +5,6 @@
 #include <cmath>
 #include <vector>
 
-#include "math/random.h"
-
 namespace stilb::lights {
 namespace {
 
@@ -77,15 +75,6 @@ Mesh prism(const Vec3& middle, const Axes& axes, Outline outline, Sides sides) {
     return mesh.take();
 }
 
-/// The share of the flux that leaves into the half space below (gamma < 90 degrees).
-double share_below(const PhotometricSolid& solid) {
-    constexpr std::uint32_t kDirections = 1 << 16;
-    std::uint32_t below = 0;
-    for (std::uint32_t i = 0; i < kDirections; ++i)
-        below += solid.sample_direction((i + 0.5) / kDirections, math::sobol(i, 0) * 0x1p-32).z > 0;
-    return static_cast<double>(below) / kDirections;
-}
-
 bool is_circle(const Vec3& extent_m) {
     return std::abs(extent_m.x - extent_m.y) <= kEqualShare * std::max(extent_m.x, extent_m.y);
 }
@@ -145,7 +134,7 @@ OpeningShape shape_of(const Opening& opening, const Luminaire& luminaire, const 
     const bool is_flat = !(size.z > 0);
     Vec3 middle = luminaire.position;
     if (is_flat) {
-        const double below = share_below(solid);
+        const double below = solid.share_below();
         const double hidden = std::min(below, 1 - below);
         if (hidden < kMostHiddenShare) {
             Luminaire moved = luminaire;

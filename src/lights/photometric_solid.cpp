@@ -202,6 +202,33 @@ void PhotometricSolid::add_up_flux() {
     }
 }
 
+double PhotometricSolid::flux_to_horizon(std::size_t plane) const {
+    constexpr double equator = std::numbers::pi / 2;
+    const double* flux = &flux_below_[plane * polar_.size()];
+    if (has_horizontal_pole() || polar_.back() < equator + kBorderRad) return flux[polar_.size() - 1];
+    if (polar_.front() > equator - kBorderRad) return 0;
+    const std::size_t ring = interval_of(polar_, equator);
+    const double width = polar_[ring + 1] - polar_[ring], at_start = relative(plane, ring);
+    const PolarDensity density{polar_[ring], width, at_start, (relative(plane, ring + 1) - at_start) / width};
+    return flux[ring] + density.at(equator - polar_[ring]).mass_below;
+}
+
+double PhotometricSolid::share_below() const {
+    constexpr double horizon = std::numbers::pi / 2;
+    double below = 0;
+    for (std::size_t plane = 0; plane + 1 < planes_.size(); ++plane) {
+        const double start = planes_[plane], end = planes_[plane + 1];
+        const double first = has_horizontal_pole() ? std::clamp(-horizon, start, end) : start;
+        const double last = has_horizontal_pole() ? std::clamp(horizon, start, end) : end;
+        const auto flux_at = [&](double angle) {
+            return std::lerp(flux_to_horizon(plane), flux_to_horizon(plane + 1),
+                             (angle - start) / (end - start));
+        };
+        below += (last - first) * (flux_at(first) + flux_at(last)) / 2;
+    }
+    return below / flux_before_.back();
+}
+
 void PhotometricSolid::find_bounds() {
     // Wider than the step, so that rounding of a direction never leads out of it.
     constexpr double step = 2.0 / kBounds, margin = step / 64;

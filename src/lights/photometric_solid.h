@@ -44,6 +44,9 @@ class PhotometricSolid {
     /// Integral of the interpolated intensity over the sphere: exact, not a sum over grid points.
     double flux_lm() const { return flux_lm_; }
     double peak_cd() const { return peak_cd_; }
+    /// The share of the flux that leaves into the half space of the nadir, exact likewise; 1 where all of it
+    /// does.
+    double share_below() const;
 
     /// A direction drawn with density intensity / flux exactly, by inversion of two numbers in [0, 1): u1
     /// gives the plane, u2 the angle in it, both continuous and increasing.
@@ -55,7 +58,10 @@ class PhotometricSolid {
     double relative(std::size_t plane, std::size_t ring) const {
         return relative_intensity_[plane * polar_.size() + ring];
     }
+    bool has_horizontal_pole() const { return axes_.w.z == 0; }
     void add_up_flux();
+    /// Per radian of a plane's angle: from the pole to the horizon, or all where the horizon is two planes.
+    double flux_to_horizon(std::size_t plane) const;
     void find_bounds();
 
     Frame axes_;                              ///< plane angle 0 and 90 on the equator, pole of polar angle 0

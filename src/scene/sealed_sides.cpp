@@ -3,15 +3,11 @@
 #include <algorithm>
 #include <optional>
 
+#include "geometry/bounds_tree.h"
 #include "geometry/mesh_topology.h"
 
 namespace stilb::scene {
 namespace {
-
-bool overlap(const Bounds& a, const Bounds& b) {
-    return a.min.x <= b.max.x && b.min.x <= a.max.x && a.min.y <= b.max.y && b.min.y <= a.max.y &&
-           a.min.z <= b.max.z && b.min.z <= a.max.z;
-}
 
 bool is_opaque(const Scene& scene, const Object& object) {
     return std::ranges::none_of(object.materials, [&](MaterialId id) {
@@ -40,26 +36,40 @@ std::optional<bool> inside_is_front(const Shape& shape) {
     return signed_volume(*mesh) < 0;
 }
 
-bool contains_light(const Scene& scene, ObjectId object) {
-    const Bounds bounds = bounds_of(scene.object(object).shape);
-    return std::ranges::any_of(scene.lights, [&](const Light& light) {
-        if (const auto origin = lights::point_origin(light))
-            return overlap(bounds, {origin->position, origin->position});
-        const auto surface = lights::emitting_object(light);
-        return surface && (*surface == object ? inside_is_front(scene.object(object).shape).value_or(true)
-                                              : overlap(bounds, bounds_of(scene.object(*surface).shape)));
-    });
-}
+/// The bounds of the lights that have a place, and their objects, if any.
+struct PlacedLights {
+    std::vector<Bounds> bounds;
+    std::vector<std::optional<ObjectId>> objects;
+
+    explicit PlacedLights(const Scene& scene) {
+        for (const Light& light : scene.lights) {
+            const auto surface = lights::emitting_object(light);
+            if (const auto origin = lights::point_origin(light)) {
+                bounds.push_back({origin->position, origin->position});
+            } else if (surface) {
+                bounds.push_back(bounds_of(scene.object(*surface).shape));
+            } else {
+                continue;
+            }
+            objects.push_back(surface);
+        }
+    }
+};
 
 }  // namespace
 
 std::vector<bool> sealed_sides(const Scene& scene) {
     std::vector<bool> is_sealed(2 * scene.objects.size());
+    const PlacedLights lamps(scene);
+    const geometry::BoundsTree tree(lamps.bounds);
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
-        const ObjectId object{i};
-        const auto inside = inside_is_front(scene.objects[i].shape);
-        if (inside && is_opaque(scene, scene.objects[i]) && !contains_light(scene, object))
-            is_sealed[object_side(object, *inside)] = true;
+        const Object& object = scene.objects[i];
+        const auto inside = inside_is_front(object.shape);
+        if (!inside || !is_opaque(scene, object)) continue;
+        const bool contains_light = tree.any_meeting(bounds_of(object.shape), [&](std::uint32_t lamp) {
+            return lamps.objects[lamp] != ObjectId{i} || *inside;
+        });
+        if (!contains_light) is_sealed[object_side(ObjectId{i}, *inside)] = true;
     }
     return is_sealed;
 }

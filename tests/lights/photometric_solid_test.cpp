@@ -87,17 +87,17 @@ Grid rough_grid(PhotometryType type) {
 }
 
 // Midpoint rule in C and gamma, with nothing in common with the code under test but intensity_cd().
-double midpoint_flux(const PhotometricSolid& solid, int planes, int rings) {
+double midpoint_flux(const PhotometricSolid& solid, int planes, int rings, double last_deg = 180) {
     double sum = 0;
     for (int i = 0; i < rings; ++i) {
-        const double gamma = (i + 0.5) * 180 / rings;
+        const double gamma = (i + 0.5) * last_deg / rings;
         double ring = 0;
         for (int k = 0; k < planes; ++k) {
             ring += solid.intensity_cd(direction_of(PhotometryType::C, (k + 0.5) * 360 / planes, gamma));
         }
         sum += ring * std::sin(gamma * kDegree);
     }
-    return sum * (2 * kPi / planes) * (kPi / rings);
+    return sum * (2 * kPi / planes) * (last_deg * kDegree / rings);
 }
 
 TEST(PhotometricSolid, IsotropicHasFourPiTimesItsIntensity) {
@@ -128,6 +128,31 @@ TEST(PhotometricSolid, FluxIsThatOfFineQuadrature) {
         EXPECT_NEAR(midpoint_flux(rough, 720, 1440) / rough.flux_lm(), 1, 2e-4);
         const PhotometricSolid smooth(full_sphere(type, 36, 36, lopsided));
         EXPECT_NEAR(midpoint_flux(smooth, 720, 720) / smooth.flux_lm(), 1, 1e-5);
+    }
+}
+
+TEST(PhotometricSolid, ShareBelowIsThatOfFineQuadrature) {
+    for (const PhotometryType type : {PhotometryType::A, PhotometryType::B, PhotometryType::C}) {
+        const PhotometricSolid rough(rough_grid(type));
+        EXPECT_NEAR(midpoint_flux(rough, 720, 720, 90) / rough.flux_lm(), rough.share_below(), 2e-4);
+        for (const std::size_t rings : {1, 35, 36}) {  // the horizon within cells, and between them
+            const PhotometricSolid smooth(full_sphere(type, 35, rings, lopsided));
+            EXPECT_NEAR(midpoint_flux(smooth, 720, 720, 90) / smooth.flux_lm(), smooth.share_below(), 1e-5);
+        }
+    }
+}
+
+TEST(PhotometricSolid, ShareBelowOfOneSideIsExact) {
+    for (const double uneven : {0.0, 1.0, 7.0}) {
+        const Grid down{PhotometryType::C, {0, 90, 360}, {0, 31, 90}, {1, 2, uneven, 1, 3, 0, 1, 2, uneven}};
+        EXPECT_EQ(PhotometricSolid(down).share_below(), 1);
+        Grid up = down;
+        up.polar_deg = {90, 120, 180};
+        EXPECT_EQ(PhotometricSolid(up).share_below(), 0);
+        Grid forwards = down;
+        forwards.type = PhotometryType::B;
+        forwards.planes_deg = {-90, 11, 90};
+        EXPECT_EQ(PhotometricSolid(forwards).share_below(), 1);
     }
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <unordered_map>
 #include <utility>
 
 #include "io/image/picture_file.h"
@@ -28,11 +29,56 @@ constexpr std::string_view kOpeningSuffix = " (opening)", kBodySuffix = " (body)
 constexpr Range kColour{0, 1e6, "from 0 to 1e6"};
 constexpr Range kPower{1e-6, 1e9, "a power from 1e-6 to 1e9 W"};
 
+/// Finds objects and the lamps that they are without a search through all of them, while lights are added.
+class LampObjects {
+  public:
+    explicit LampObjects(const Scene& scene) : scene_(scene) {}
+
+    std::optional<ObjectId> find(const std::string& name) {
+        update();
+        const auto found = by_name_.find(name);
+        return found == by_name_.end() ? std::nullopt : std::optional(found->second);
+    }
+    /// The name of the light that shines from the object.
+    const std::string* light_of(ObjectId object) {
+        update();
+        const auto found = light_of_.find(object);
+        return found == light_of_.end() ? nullptr : &scene_.lights[found->second].name;
+    }
+    /// The name of the first object that was cut out of this one.
+    const std::string* cut_from(ObjectId object) {
+        update();
+        const auto found = cut_from_.find(object);
+        return found == cut_from_.end() ? nullptr : &scene_.object(found->second).name;
+    }
+
+  private:
+    void update() {
+        for (; objects_ < scene_.objects.size(); ++objects_) {
+            const Object& object = scene_.objects[objects_];
+            const auto id = static_cast<ObjectId>(objects_);
+            by_name_.try_emplace(object.name, id);
+            if (object.cut_from) cut_from_.try_emplace(*object.cut_from, id);
+        }
+        for (; lights_ < scene_.lights.size(); ++lights_) {
+            if (const auto surface = lights::emitting_object(scene_.lights[lights_]))
+                light_of_.try_emplace(*surface, lights_);
+        }
+    }
+
+    const Scene& scene_;
+    std::unordered_map<std::string, ObjectId> by_name_;  ///< the first of each name
+    std::unordered_map<ObjectId, ObjectId> cut_from_;
+    std::unordered_map<ObjectId, std::size_t> light_of_;
+    std::size_t objects_ = 0, lights_ = 0;  ///< those that are known
+};
+
 /// The context of reading one light, besides its table.
 struct Context {
     const std::string& name;
     const std::filesystem::path& directory;
     PartsOfObjects& parts;
+    LampObjects& lamp_objects;
     SceneFile& file;
 };
 
@@ -65,37 +111,37 @@ double read_luminance(const TomlTable& table, const Shape& shape) {
     return luminance_cd_m2;
 }
 
-/// Refuses an object that shines already.
-void expect_unlit(const TomlItem& item, ObjectId object, const Scene& scene) {
-    for (const Light& other : scene.lights) {
-        const auto surface = lights::emitting_object(other);
-        if (surface && *surface == object) {
-            item.fail(
-                fmt::format("{} is already the emitter of the light {}. Allowed: one area light per object.",
-                            in_quotes(item.text()), in_quotes(other.name)));
-        }
+/// The object of the scene that the key names; it must not shine already.
+ObjectId find_unlit(const TomlItem& item, const Context& context) {
+    auto object = context.lamp_objects.find(item.text());
+    if (!object) {
+        std::vector<std::string_view> names;
+        for (const Object& known : context.file.scene.objects) names.push_back(known.name);
+        object = static_cast<ObjectId>(item.index_in(names, "object"));  // throws
     }
+    if (const std::string* other = context.lamp_objects.light_of(*object)) {
+        item.fail(
+            fmt::format("{} is already the emitter of the light {}. Allowed: one area light per object.",
+                        in_quotes(item.text()), in_quotes(*other)));
+    }
+    return *object;
 }
 
 /// The object that a light shines from: the one that it names, or some faces of it.
 ObjectId read_emitter(const TomlTable& table, const Context& context) {
     Scene& scene = context.file.scene;
-    std::vector<std::string_view> names;
-    for (const Object& object : scene.objects) names.push_back(object.name);
     const TomlItem item = table.at("object");
-    const ObjectId object{static_cast<std::uint32_t>(item.index_in(names, "object"))};
-    expect_unlit(item, object, scene);
+    const ObjectId object = find_unlit(item, context);
     table.expect_not_both("material", "mesh_group");
     for (const std::string_view key : {"material", "mesh_group"}) {
         if (const auto part = table.find(key))
             return cut_out_lamp(scene, object, {std::string(key), *part}, context.parts);
     }
-    const auto lamps = scene::cut_from(scene, object);
-    if (!lamps.empty()) {
+    if (const std::string* lamp = context.lamp_objects.cut_from(object)) {
         item.fail(fmt::format(
             "some of its faces are another light, {}. Allowed: \"material\" or \"mesh_group\", which "
             "pick faces for each light of the object.",
-            in_quotes(scene.object(lamps.front()).name)));
+            in_quotes(*lamp)));
     }
     return object;
 }
@@ -123,28 +169,27 @@ MaterialId black_of_lights(Scene& scene) {
 }
 
 /// Adds an object that comes with a light.
-ObjectId add_object(const TomlTable& table, Object object, Scene& scene) {
-    for (const Object& other : scene.objects) {
-        if (other.name != object.name) continue;
+ObjectId add_object(const TomlTable& table, Object object, const Context& context) {
+    if (context.lamp_objects.find(object.name)) {
         table.fail(fmt::format(
             "the light adds an object {}, but the scene already has an object of this name. Allowed: "
             "another name of the light or of the object.",
             in_quotes(object.name)));
     }
-    const ObjectId id{static_cast<std::uint32_t>(scene.objects.size())};
-    scene.objects.push_back(std::move(object));
-    return id;
+    std::vector<Object>& objects = context.file.scene.objects;
+    objects.push_back(std::move(object));
+    return ObjectId{static_cast<std::uint32_t>(objects.size() - 1)};
 }
 
 /// The object of a light that comes with a surface of its own.
-ObjectId add_emitter(const TomlTable& table, const std::string& name, Shape shape, Scene& scene) {
-    return add_object(table, {name, std::move(shape), {black_of_lights(scene)}}, scene);
+ObjectId add_emitter(const TomlTable& table, const std::string& name, Shape shape, const Context& context) {
+    return add_object(table, {name, std::move(shape), {black_of_lights(context.file.scene)}}, context);
 }
 
 AreaLight read_sphere(TomlTable& table, const Context& context) {
     const Sphere sphere{table.at("center").vector(), table.at("radius").number(kRadius)};
     const Rgb luminance_cd_m2 = read_luminance(table, sphere) * read_colour(table);
-    return {add_emitter(table, context.name, sphere, context.file.scene), luminance_cd_m2};
+    return {add_emitter(table, context.name, sphere, context), luminance_cd_m2};
 }
 
 /// Lights with the same file share one photometric solid.
@@ -203,7 +248,7 @@ lights::BodyExtent add_body(const TomlTable& table, const TomlItem& geometry, co
         extent.above_m = std::max(extent.above_m, gap_m + vertex.z);
     }
     body.shape = transformed(std::move(body.shape), placed);
-    add_object(table, std::move(body), context.file.scene);
+    add_object(table, std::move(body), context);
     return extent;
 }
 
@@ -234,7 +279,7 @@ lights::LightSource read_photometry(TomlTable& table, const Context& context) {
     auto [shape, hidden_share] = lights::shape_of(of_light, luminaire, scene.solid(solid), body);
     luminaire.scale(Rgb::grey(1 / (1 - hidden_share)));
     return LuminousOpening{
-        add_emitter(table, context.name + std::string(kOpeningSuffix), std::move(shape), scene), luminaire};
+        add_emitter(table, context.name + std::string(kOpeningSuffix), std::move(shape), context), luminaire};
 }
 
 /// The map from an OpenEXR or Radiance picture, in cd/m2 as the picture reader gives them.
@@ -370,11 +415,12 @@ std::vector<TypeKeys> lamp_types() {
 
 void read_lights(const TomlTable& section, LightContext context, SceneFile& file) {
     const auto place = [](const TomlTable& table) { return reader_of(table).place; };
+    LampObjects lamp_objects(file.scene);
     for (auto& [name, table, copy_of] : repeated_tables(named_tables(section, context.defaults), place)) {
         const Reader& reader = reader_of(table);
         table.expect_keys(keys_of(reader), fmt::format("type {}", in_quotes(reader.type)));
         const double maintenance = is_lamp(reader) ? read_maintenance(table, context.maintenance) : 1;
-        Light light{name, reader.read(table, {name, context.directory, context.parts, file}),
+        Light light{name, reader.read(table, {name, context.directory, context.parts, lamp_objects, file}),
                     read_group(table, copy_of), maintenance};
         if (!is_on(table)) continue;
         light.power_w = read_power(table, light, file.scene);
