@@ -19,7 +19,7 @@ constexpr double kRaysPerPath = 10;
 /// Comparisons of a sample, and samples of a comparison, at most.
 constexpr double kMostComparisons = 64, kMostSamples = 4;
 /// Separate keys; the points have keys of their numbers.
-constexpr std::uint64_t kViews = ~std::uint64_t{0}, kComparisons = kViews - 1;
+constexpr std::uint64_t kViews = ~std::uint64_t{0}, kComparisons = kViews - 1, kFaint = kViews - 2;
 
 }  // namespace
 
@@ -53,6 +53,7 @@ void PatchReadings::add_reading(std::uint32_t reading, const Measurand& measuran
         trace_line_of_sight(measurand, transport_.scene, caster, transport_.lights, transport::kUnlimited);
     known_part_[reading] = sight.emission_cd_m2;
     sight_ends_[reading] = sight.end;
+    for (const transport::FaintRay& branch : sight.faint) faint_.push_back({reading, branch});
     std::vector<ViewedHit> points;
     for (const transport::SubPoint& sub_point : sight.sub_points) {
         points.push_back({sub_point.surface, sub_point.outgoing});
@@ -100,6 +101,14 @@ void PatchReadings::add(const PatchLight& light, math::RandomKey key, std::uint6
         monitor_.require_more();
         const View& view = views_[i];
         sums.add(view.reading, view.transmission * sampled_luminance(light, view, key_of_views.derived(i)));
+    }
+    const math::RandomKey key_of_faint = key.derived(kFaint);
+    for (std::size_t i = 0; i < faint_.size(); ++i) {
+        const auto& [reading, branch] = faint_[i];
+        math::SampleStream stream(key_of_faint.derived(i), sample);
+        sums.add(reading,
+                 branch.transmission * tracer_.incoming_luminance({branch.origin, branch.direction}, {},
+                                                                  transport::kUnlimited, stream));
     }
     for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {

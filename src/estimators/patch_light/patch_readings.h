@@ -72,6 +72,12 @@ class PatchReadings {
         Rgb known{};  ///< the luminance by first shot, as far as it is the same in all samples
     };
 
+    /// A branch of a line of sight with so little light that path tracing suffices for it.
+    struct FaintView {
+        std::uint32_t reading = 0;
+        transport::FaintRay branch;
+    };
+
     void add_reading(std::uint32_t reading, const Measurand& measurand);
     void add_shares();
     Rgb first_reflected(const View& view) const;
@@ -106,6 +112,7 @@ class PatchReadings {
     std::vector<std::optional<Vec3>> sight_ends_;
     std::vector<transport::Receiver> points_;
     std::vector<View> views_;
+    std::vector<FaintView> faint_;
     std::uint64_t comparisons_ = 1;             ///< of a sample that is compared
     std::uint64_t samples_per_comparison_ = 1;  ///< one in so many is compared
 };
