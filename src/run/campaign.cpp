@@ -30,6 +30,8 @@ constexpr std::uint64_t kSamplesToRuleOut = 1 << 16;
 constexpr std::size_t kStrands = 32;
 /// Readings times strands: with more of them, sums take gigabytes and much of the time.
 constexpr std::size_t kMostSums = std::size_t{1} << 22;
+/// The memory of a reading beside its sums: what is measured, its receiver and its result.
+constexpr std::size_t kBytesOfReading = 950;
 
 std::size_t strands_of_replicate(std::size_t replicates, std::size_t readings) {
     const std::size_t wanted = std::max<std::size_t>(1, kStrands / replicates);
@@ -52,6 +54,16 @@ ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOption
     }
     if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
     return plan;
+}
+
+std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunOptions& options) {
+    std::size_t readings = 0;
+    for (const Sensor& sensor : sensors) readings += sensor.size();
+    if (readings == 0) return 0;
+    const std::size_t replicates = ReplicatePlan::of(sensors, options, false).replicates;
+    constexpr std::size_t bytes_of_sum = sizeof(Rgb) + sizeof(double);  // ReadingSums
+    return readings *
+           (kBytesOfReading + bytes_of_sum * replicates * strands_of_replicate(replicates, readings));
 }
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,

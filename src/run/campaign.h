@@ -30,6 +30,11 @@ struct ReplicatePlan {
     static ReplicatePlan of(std::span<const Sensor> sensors, const RunOptions& options, bool lights_patches);
 };
 
+/// About the memory of a run of methods without patches for its readings, beside that of the scene and of a
+/// guess of the light (kGuessBytes).
+std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunOptions& options);
+inline constexpr std::size_t kGuessBytes = 150'000'000;
+
 class GlareViews;
 
 /// The sums of all replicates, and their progress. Keeps references to the estimator, to the sensors, which

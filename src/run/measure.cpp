@@ -244,6 +244,9 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
 /// enough.
 struct Wanted {
     explicit Wanted(std::span<const Sensor> sensors) {
+        std::size_t readings = 0;
+        for (const Sensor& sensor : sensors) readings += sensor.size();
+        measurands.reserve(readings);
         for (std::uint32_t s = 0; s < sensors.size(); ++s) {
             const Sensor& sensor = sensors[s];
             std::ranges::copy(sensor.measurands(), std::back_inserter(measurands));

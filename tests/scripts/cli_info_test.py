@@ -2,9 +2,11 @@
 
 import json
 import math
+import os
+import subprocess
 import unittest
 
-from command_line import CAMERA, ROOM, ROOT, CommandLineTest, run
+from command_line import CAMERA, PROGRAM, ROOM, ROOT, CommandLineTest, run
 
 
 class InfoTest(CommandLineTest):
@@ -26,6 +28,31 @@ class InfoTest(CommandLineTest):
         self.assertAlmostEqual(report["materials"][0]["reflectance"], 0.2126 * 0.7 + 0.7152 * 0.5 + 0.0722 * 0.3)
         self.assertEqual([s["points"] for s in report["sensors"]], [6, 1])
         self.assertGreater(report["memory"]["peak_bytes"], report["memory"]["meshes_bytes"])
+
+    @unittest.skipIf("STILB_MOST_SECONDS" in os.environ, "sanitizers need memory of their own")
+    def test_memory_of_many_readings(self):
+        """What info says is what measure takes, in scenes in which replicates have one strand, and several."""
+        def peak_bytes(count, method):
+            scene = self.write("grid.toml", ROOM[:ROOM.index("[sensors.")] + f"""
+[sensors.many]
+type = "grid"
+corner = [0.1, 0.1, 1]
+edge_u = [3.8, 0, 0]
+edge_v = [0, 2.8, 0]
+count = [{count}, {count}]
+""")
+            command = [PROGRAM, "measure", scene, "--method", method, "--paths", "8", "--quiet"]
+            with subprocess.Popen(command, stdout=subprocess.DEVNULL) as process:
+                _, status, usage = os.wait4(process.pid, 0)
+                process.returncode = os.waitstatus_to_exitcode(status)
+            self.assertEqual(process.returncode, 0)
+            return 1024 * usage.ru_maxrss, self.info(scene)["memory"]["readings_bytes"]
+
+        for method in ("local", "path"):
+            one, _ = peak_bytes(1, method)
+            for count in (250, 800):
+                all_of_them, stated = peak_bytes(count, method)
+                self.assertLess(abs(all_of_them - one - stated), 0.25 * stated, (method, count, all_of_them, one, stated))
 
     def test_sensors_of_luminance(self):
         scene = self.write("view.toml", ROOM + CAMERA + """

@@ -22,6 +22,7 @@
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
+#include "run/campaign.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -283,9 +284,16 @@ std::string run_text(const Json& run) {
 }
 
 std::string memory_text(const Json& memory) {
-    constexpr double mega = 1e6;
-    return fmt::format("Memory to read it: {:.1f} MB at most; the meshes take {:.2f} MB\n",
-                       number(memory, "peak_bytes") / mega, number(memory, "meshes_bytes") / mega);
+    constexpr double mega = 1e6, small_bytes = 1e7;
+    std::string result =
+        fmt::format("Memory to read it: {:.1f} MB at most; the meshes take {:.2f} MB\n",
+                    number(memory, "peak_bytes") / mega, number(memory, "meshes_bytes") / mega);
+    const double readings_bytes = memory.contains("readings_bytes") ? number(memory, "readings_bytes") : 0;
+    if (readings_bytes > small_bytes)
+        result +=
+            fmt::format("Memory to measure: about {:.0f} MB, and {:.0f} MB more where the light is guessed\n",
+                        readings_bytes / mega, run::kGuessBytes / mega);
+    return result;
 }
 
 std::string installed_text(const Json& power) {

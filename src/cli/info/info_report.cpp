@@ -11,6 +11,7 @@
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
+#include "run/campaign.h"
 #include "scene/installed_power.h"
 
 namespace stilb::cli {
@@ -237,7 +238,9 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name, cons
     if (!file.notes.empty()) json["notes"] = file.notes;
     json["run"] = run_json(file.run);
     json["warnings"] = checks::scene_warnings(file.scene, caster, enclosures, sensors, file.warnings);
-    json["memory"] = {{"meshes_bytes", mesh_bytes(scene)}, {"peak_bytes", peak_resident_bytes()}};
+    json["memory"] = {{"meshes_bytes", mesh_bytes(scene)},
+                      {"peak_bytes", peak_resident_bytes()},
+                      {"readings_bytes", run::memory_of_readings_bytes(sensors, file.run)}};
     return json;
 }
 
