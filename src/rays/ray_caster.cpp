@@ -150,47 +150,7 @@ struct RayCaster::Implementation {
         rtcSetSceneProgressMonitorFunction(embree_scene, report_build, const_cast<Monitor*>(&monitor));
         rtcCommitScene(embree_scene);
         rtcSetSceneProgressMonitorFunction(embree_scene, nullptr, nullptr);  // the monitor may end now
-        // In a large scene the centre is near to the measured points, and light comes to them from as far as
-        // they see: the rounding error of rays from there counts.
-        if (lift_rule.half_extent_m() > lift_rule.largest_size_m()) {
-            const double seen_m = std::max(4 * lift_rule.least_size_m(), sight_m(measured));
-            lift_rule = {lift_rule.center(), lift_rule.half_extent_m(), seen_m};
-        }
         add_few_triangles();
-    }
-
-    /// How far the measured points see, but for a tenth of the directions. Of two opposite directions the
-    /// nearer surface counts, because a point on a floor may also see what is far below it. 0 where nothing
-    /// is in sight.
-    double sight_m(std::span<const Vec3> measured) const {
-        constexpr std::size_t most_points = 16, directions = 32;
-        constexpr double golden_angle = 2.399963229728653;
-        constexpr float own_surface_m = 1e-3f;  // points lie on what is nearer
-        std::vector<double> sights_m;
-        const std::size_t points = std::min(measured.size(), most_points);
-        for (std::size_t i = 0; i < points * directions; ++i) {
-            const Vec3 from = measured[i / directions * measured.size() / points] - center;
-            const double height = (static_cast<double>(i % directions) + 0.5) / directions;
-            const double azimuth = golden_angle * static_cast<double>(i),
-                         sine = std::sqrt(1 - height * height);
-            const Vec3 up{sine * std::cos(azimuth), sine * std::sin(azimuth), height};
-            double nearest_m = kInfinity;
-            for (const Vec3& direction : {up, -up}) {
-                RTCRayHit found{ray_from(from, direction, kInfinity), {}};
-                found.ray.tnear = own_surface_m;
-                found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-                RTCIntersectContext context;
-                rtcInitIntersectContext(&context);
-                rtcIntersect1(embree_scene, &context, &found);
-                if (found.hit.geomID != RTC_INVALID_GEOMETRY_ID)
-                    nearest_m = std::min(nearest_m, double{found.ray.tfar});
-            }
-            if (nearest_m < kInfinity) sights_m.push_back(nearest_m);
-        }
-        if (sights_m.empty()) return 0;
-        const auto far = sights_m.begin() + static_cast<std::ptrdiff_t>(sights_m.size() * 9 / 10);
-        std::ranges::nth_element(sights_m, far);
-        return *far;
     }
 
     ~Implementation() {

@@ -72,10 +72,12 @@ std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::Ray
     return close && !faces_lamp(point, *close, caster) ? close : std::nullopt;
 }
 
-Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
-    if (const auto close = close_surface(point, caster))
-        return faces_lamp(point, *close, caster) ? close->lifted_behind() : close->lifted;
-    return point.position;
+RayStart ray_start(const MeasuringPoint& point, const rays::RayCaster& caster) {
+    const auto close = close_surface(point, caster);
+    if (!close) return {point.position};
+    const Vec3 lift = close->lift_m * close->normal;
+    if (faces_lamp(point, *close, caster)) return {close->lifted_behind(), -lift};
+    return {close->lifted, lift};
 }
 
 std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster) {

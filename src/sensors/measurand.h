@@ -86,9 +86,16 @@ inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminan
 /// The surface that a point lies on, on the side of its normal.
 std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);
 
-/// The start of rays from a measuring point: lifted along its normal, off the surface that it lies on, if
-/// any.
-Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster);
+/// The start of rays from a point.
+struct RayStart {
+    Vec3 position;
+    Vec3 lift{};  ///< off the surface that the point lies on; 0 where it lies on none
+};
+/// Of a measuring point: off the surface that it lies on, if any, on the side of its normal.
+RayStart ray_start(const MeasuringPoint& point, const rays::RayCaster& caster);
+inline Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
+    return ray_start(point, caster).position;
+}
 
 /// The surface that a body lies on, on the assumed side of the body: where its axis points to, or
 /// the front where the axis lies in the surface. Nothing for a body that stands free.

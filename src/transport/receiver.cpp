@@ -20,8 +20,12 @@ const Material& white() {
 }  // namespace
 
 Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster)
+    : Receiver(reading, point, ray_start(point, caster)) {}
+
+Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const sensors::RayStart& start)
     : position_(point.position),
-      lifted_(lifted_position(point, caster)),
+      lifted_(start.position),
+      lift_(start.lift),
       normal_(point.normal),
       surface_(white(), normal_, normal_),
       outgoing_{0, 0, 1},
@@ -40,6 +44,7 @@ Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::Ray
       reading_(reading) {
     if (const auto surface = surface_at(body, caster)) {
         lifted_ = surface->lifted;
+        lift_ = surface->lift_m * surface->normal;
         horizon_ = surface->normal;
     }
 }
@@ -47,6 +52,7 @@ Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::Ray
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
     : position_(sub_point.surface.position),
       lifted_(sub_point.surface.lifted),
+      lift_(sub_point.surface.lift_m * sub_point.surface.normal),
       normal_(sub_point.surface.normal),
       surface_(material, normal_, sub_point.surface.shading_normal),
       outgoing_(surface_.frame().to_local(sub_point.outgoing)),

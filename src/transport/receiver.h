@@ -40,6 +40,8 @@ class Receiver {
     void set_reading(std::uint32_t reading) { reading_ = reading; }
     const Vec3& position() const { return position_; }
     const Vec3& lifted() const { return lifted_; }  ///< where rays start
+    /// Off the surface that the point lies on; 0 where it lies on none.
+    const Vec3& lift() const { return lift_; }
     /// 0 for a body, which has no surface normal.
     const Vec3& normal() const { return normal_; }
     bool is_body() const { return body_ != nullptr; }
@@ -81,7 +83,9 @@ class Receiver {
   private:
     void set_constant_response();
 
-    Vec3 position_, lifted_, normal_;
+    Receiver(std::uint32_t reading, const MeasuringPoint& point, const sensors::RayStart& start);
+
+    Vec3 position_, lifted_, lift_, normal_;
     materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
     /// Normal of the surface that a body lies on, which hides half of the sphere.

@@ -1,5 +1,6 @@
 // Readings do not depend on what lies elsewhere, nor on where a scene lies: far objects that nothing sees,
 // map coordinates, sensors far from a lamp and closer to it than rays can tell.
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -112,10 +113,11 @@ TEST(FarThings, ARoomAtMapCoordinatesWithATriangleLeftAtTheOrigin) {
     }
 }
 
-/// Sensors 0.5 m to 1 km from a panel of 0.3 m, with nothing else, in all directions, at once.
-TEST(FarThings, ALampAloneIsAsBrightFromEveryDistance) {
+/// Sensors 0.5 m to 1 km from a panel of 0.3 m, in all directions, at once; with nothing else, and beside a
+/// body of so many triangles that rays go by a tree.
+void expect_light_of_panel(const Scene& others) {
     const Rectangle panel{{-0.05, -0.15, 3}, {0, 0.3, 0}, {0.1, 0, 0}};
-    Scene scene;
+    Scene scene = others;
     add_area_light(scene, panel, Rgb::grey(1e4));
     std::vector<MeasuringPoint> points;
     for (const double distance_m : {0.5, 3.0, 31.0, 33.0, 100.0, 1000.0}) {
@@ -131,6 +133,16 @@ TEST(FarThings, ALampAloneIsAsBrightFromEveryDistance) {
                 {points[i].position, points[i].normal}, panel.corner, panel.edge_u, panel.edge_v, 1e4);
             EXPECT_NEAR(values[i] / exact_lx, 1, 0.001) << method << ' ' << i;
         }
+    }
+}
+
+TEST(FarThings, ALampAloneIsAsBrightFromEveryDistance) { expect_light_of_panel({}); }
+
+TEST(FarThings, ALampBesideABodyIsAsBrightFromEveryDistance) {
+    for (const double height_m : {4.0, 100.0}) {
+        Scene scene;
+        add_object(scene, icosphere({{0, 0, height_m}, 0.5}, 2), diffuse(0));
+        expect_light_of_panel(scene);
     }
 }
 
@@ -163,28 +175,79 @@ TEST(FarThings, SensorsRightBelowALampAreBelowIt) {
     for (const double lx : above) EXPECT_EQ(lx, 0);
 }
 
-/// A receiver that is near to the centre of ray queries gets its light from walls that are far from it: from
-/// halls in which single precision at the walls is coarser than the offset at the centre.
-TEST(FarThings, LargeHallsLoseNoLightOfTheirWalls) {
-    for (const double half_m : {30.0, 34.0, 100.0, 300.0, 3000.0}) {
-        Scene scene;
+// A receiver that is near to the centre of ray queries gets its light from walls that are far from it: from
+// halls in which single precision at the walls is coarser than the offset at the centre.
+
+/// The walls of a room that is seen from inside, floor and ceiling with them, as bodies of this thickness;
+/// one box where it is 0.
+void add_hall(Scene& scene, double half_m, double thickness_m) {
+    if (thickness_m == 0) {
         add_object(scene, Box{{-half_m, -half_m, -half_m}, {half_m, half_m, half_m}}, diffuse(0.5));
-        const double flux_lm = 1e4 * half_m * half_m;
+        return;
+    }
+    const double middle_m = half_m + thickness_m / 2;
+    for (const Vec3& axis : {Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}}) {
+        const Vec3 half = (half_m + thickness_m) * (Vec3{1, 1, 1} - axis) + thickness_m / 2 * axis;
+        for (const Vec3& middle : {middle_m * axis, -middle_m * axis})
+            add_object(scene, Box{middle - half, middle + half}, diffuse(0.5));
+    }
+}
+
+struct Hall {
+    Scene scene;
+    double half_m, flux_lm;
+
+    Hall(double half, double thickness_m) : half_m(half), flux_lm(1e4 * half * half) {
+        add_hall(scene, half_m, thickness_m);
         add_point_light(scene, {0, 0, 0}, Rgb::grey(flux_lm / (4 * kPi)));
+    }
+    /// Illuminances of places on the floor, or as good as there.
+    void expect_exact(const std::vector<Sensor>& sensors, const std::vector<Vec3>& places,
+                      const std::string& what) const {
         const exact::DiffuseCube cube(2 * half_m, flux_lm);
-        const std::vector<MeasuringPoint> points{{{0, 0, -half_m}, kUp},
-                                                 {{half_m / 2, half_m / 2, -half_m}, kUp}};
         for (const std::string_view method : {"path", "light-paths", "local"}) {
-            const auto values = values_of(scene, {point_sensor(points)}, method, 32768);
-            for (std::size_t i = 0; i < points.size(); ++i) {
-                const auto& [x, y, z] = points[i].position;
-                const double exact_lx =
-                    cube.direct_illuminance_lx(x, y) + cube.indirect_illuminance_lx(0.5, x, y);
+            const auto values = values_of(scene, sensors, method, 32768);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                const double exact_lx = cube.direct_illuminance_lx(places[i].x, places[i].y) +
+                                        cube.indirect_illuminance_lx(0.5, places[i].x, places[i].y);
                 EXPECT_NEAR(values[i] / exact_lx, 1, 0.01)
-                    << method << ", half side " << half_m << " m, " << i;
+                    << method << ", half side " << half_m << " m, " << what << ", " << i;
             }
         }
     }
+};
+
+TEST(FarThings, LargeHallsLoseNoLightOfTheirWalls) {
+    for (const double half_m : {30.0, 34.0, 100.0, 300.0, 3000.0}) {
+        for (const double thickness_m : {0.0, 0.3}) {
+            const std::vector<Vec3> places{{0, 0, -half_m}, {half_m / 2, half_m / 2, -half_m}};
+            Hall(half_m, thickness_m)
+                .expect_exact({point_sensor({{places[0], kUp}, {places[1], kUp}})}, places,
+                              fmt::format("walls of {} m", thickness_m));
+        }
+    }
+}
+
+/// Most of the measured points see no more than a closet, in which it is dark.
+TEST(FarThings, OneReadingOfALargeHallLosesNoLight) {
+    Hall hall(300, 0);
+    add_object(hall.scene, Box{{10, 10, -300}, {14, 13, -297.5}}, diffuse(0));
+    std::vector<Sensor> sensors{point_sensor({{{0, 0, -300}, kUp}})};
+    for (int i = 0; i < 17; ++i) sensors.push_back(point_sensor({{{11 + 0.1 * i, 11.5, -300}, kUp}}));
+    hall.expect_exact(sensors, {{0, 0, -300}}, "beside a closet");
+}
+
+/// Exactly at, right above and clearly above the floor.
+TEST(FarThings, ReadingsAboveTheFloorOfALargeHallLoseNoLight) {
+    const double half_m = 300;
+    const Hall hall(half_m, 0.3);
+    std::vector<MeasuringPoint> points;
+    std::vector<Vec3> places;
+    for (const double above_m : {0.0, 1e-5, 1e-4, 9.99e-4, 1e-3, 1.001e-3, 0.01, 0.8}) {
+        places.push_back({0, 0, above_m - half_m});
+        points.push_back({places.back(), kUp});
+    }
+    hall.expect_exact({point_sensor(points)}, places, "above the floor");
 }
 
 }  // namespace

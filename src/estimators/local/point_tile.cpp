@@ -1,5 +1,8 @@
 #include "estimators/local/point_tile.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "base/rays.h"
 
 namespace stilb::estimators {
@@ -31,7 +34,22 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std:
     return any != 0;
 }
 
-/// The same for lanes of bodies, which connect_lanes() leaves unset: their normals are 0.
+/// Segments are as inexact at their ends as they are long: they end above the surface by this share of their
+/// length at least. In scenes that are not large, receivers are lifted by more.
+constexpr auto kLiftOfLength = static_cast<float>(Lift::kShare / 9);
+
+STILB_VECTORIZED void raise_ends(const PointTile& __restrict tile, RayPacket& __restrict segments) {
+    for (int i = 0; i < kPacketWidth; ++i) {
+        const float x = segments.direction_x[i], y = segments.direction_y[i], z = segments.direction_z[i];
+        const float more_m =
+            std::max(kLiftOfLength * std::sqrt(x * x + y * y + z * z) - tile.lift_m[i], 0.0f);
+        segments.direction_x[i] = x + more_m * tile.up_x[i];
+        segments.direction_y[i] = y + more_m * tile.up_y[i];
+        segments.direction_z[i] = z + more_m * tile.up_z[i];
+    }
+}
+
+/// G for lanes of bodies, which connect_lanes() leaves unset: their normals are 0.
 bool connect_bodies(const SegmentOrigin& origin, std::int32_t reflections, const PointTile& tile,
                     LaneMask& lanes, PointTile::Floats& g_per_m2) {
     const Vec3 normal{origin.normal_x, origin.normal_y, origin.normal_z};
@@ -77,6 +95,11 @@ std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
         tile.lifted_x[i] = static_cast<float>(lifted.x);
         tile.lifted_y[i] = static_cast<float>(lifted.y);
         tile.lifted_z[i] = static_cast<float>(lifted.z);
+        const double lift_m = length(receiver.lift());
+        const Vec3 up = lift_m > 0 ? receiver.lift() / lift_m : Vec3{};
+        tile.lift_m[i] = static_cast<float>(lift_m);
+        tile.up_x[i] = static_cast<float>(up.x), tile.up_y[i] = static_cast<float>(up.y),
+        tile.up_z[i] = static_cast<float>(up.z);
         tile.normal_x[i] = static_cast<float>(normal.x);
         tile.normal_y[i] = static_cast<float>(normal.y);
         tile.normal_z[i] = static_cast<float>(normal.z);
@@ -87,6 +110,7 @@ std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
         tile.receivers = receivers.subspan(first, i + 1);
         tile.directional = tile.directional || !receiver.constant_response();
         tile.has_bodies = tile.has_bodies || receiver.is_body();
+        tile.is_in_large_scene = caster.lift().half_extent_m() > caster.lift().largest_size_m();
     }
     for (PointTile& tile : tiles) set_responses(tile);
     return tiles;
@@ -105,6 +129,7 @@ SegmentOrigin::SegmentOrigin(const Vec3& position, const Vec3& lifted_position, 
 bool connect(const SegmentOrigin& origin, int reflections, const PointTile& tile, RayPacket& segments,
              LaneMask& lanes, PointTile::Floats& g_per_m2) {
     const bool any = connect_lanes(origin, reflections, tile, segments, lanes, g_per_m2);
+    if (tile.is_in_large_scene) raise_ends(tile, segments);
     return tile.has_bodies ? connect_bodies(origin, reflections, tile, lanes, g_per_m2) || any : any;
 }
 

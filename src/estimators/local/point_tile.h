@@ -16,7 +16,8 @@ namespace stilb::estimators {
 struct alignas(64) PointTile {
     using Floats = std::array<float, kPacketWidth>;
     Floats x{}, y{}, z{};                       ///< the points themselves, which determine G
-    Floats lifted_x{}, lifted_y{}, lifted_z{};  ///< where segments end
+    Floats lifted_x{}, lifted_y{}, lifted_z{};  ///< where segments end, unless they are long
+    Floats lift_m{}, up_x{}, up_y{}, up_z{};    ///< off a receiver's surface, and in which direction; or 0
     Floats normal_x{}, normal_y{}, normal_z{};  ///< 0 in lanes without a point
     Floats inverse_k{};                         ///< of the bounded connection [m2]
     /// The number of reflections that light may have met before it arrives.
@@ -28,6 +29,7 @@ struct alignas(64) PointTile {
     std::span<const transport::Receiver> receivers;      ///< of the first lanes
     bool directional = false;                            ///< the response of one of them depends on direction
     bool has_bodies = false;                             ///< one of them is on no surface; its normal is 0
+    bool is_in_large_scene = false;                      ///< segments may be so long that ends are raised
     transport::VertexChoice choice{};                    ///< of vertices that are connected
 
     Rgb response_of(std::size_t lane) const {
