@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <variant>
 
 #include "checks/checks.h"
 #include "checks/walks.h"
@@ -79,15 +80,21 @@ std::optional<std::string> body_warning(const Sensor& sensor, const rays::RayCas
         sensor.name, which, sensor.type(), on_surfaces == 1 ? "it" : "them");
 }
 
-std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosure, std::size_t>& counts,
-                                    const EnclosureList& lit, const Scene& scene) {
+/// Points of a sensor in one enclosure.
+struct EnclosedPoints {
+    std::size_t count = 0;
+    Vec3 first;
+};
+
+std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosure, EnclosedPoints>& enclosed,
+                                    const auto& is_dark, const EnclosureList& lit, const Scene& scene) {
     std::size_t dark_points = 0, points = 0;
     const Enclosure* most = nullptr;
-    for (const auto& [enclosure, count] : counts) {
-        points += count;
-        if (contains(lit, enclosure)) continue;
-        if (most == nullptr || count > counts.at(*most)) most = &enclosure;
-        dark_points += count;
+    for (const auto& [enclosure, own] : enclosed) {
+        points += own.count;
+        if (contains(lit, enclosure) || !is_dark(own.first)) continue;
+        if (most == nullptr || own.count > enclosed.at(*most).count) most = &enclosure;
+        dark_points += own.count;
     }
     if (most == nullptr) return std::nullopt;
     const std::string which =
@@ -148,9 +155,12 @@ class PlacementCheck {
             lit_.insert(lit_.end(), of_light.begin(), of_light.end());
         for (const Sensor& sensor : sensors) {
             const std::vector<ProbeRay> rays = rays_of(sensor, caster);
-            auto& counts = counts_.emplace_back();
-            for (const ProbeRay& ray : rays) ++counts[enclosures.enclosure_of(ray)];
-            for (const auto& [enclosure, count] : counts) of_sensors_.push_back(enclosure);
+            auto& enclosed = enclosed_.emplace_back();
+            for (const ProbeRay& ray : rays) {
+                EnclosedPoints& points = enclosed[enclosures.enclosure_of(ray)];
+                if (points.count++ == 0) points.first = ray.position;
+            }
+            for (const auto& [enclosure, points] : enclosed) of_sensors_.push_back(enclosure);
             first_.push_back(rays.front().position);
         }
     }
@@ -166,7 +176,9 @@ class PlacementCheck {
         std::vector<std::string> warnings;
         const bool lights_explain_all = !some_are_lit && !faulty_.empty();
         for (std::size_t i = 0; i < sensors_.size(); ++i) {
-            auto fault = fault_of(sensors_[i], counts_[i], lit_, scene_);
+            auto fault = fault_of(
+                sensors_[i], enclosed_[i], [&](const Vec3& point) { return !sees_a_lamp(point); }, lit_,
+                scene_);
             if (!fault) continue;
             explained.sensors[i] = true;
             if (!lights_explain_all) warnings.push_back(std::move(*fault));
@@ -234,20 +246,46 @@ class PlacementCheck {
             return true;
         }
         const auto component = around_all(of_sensors_, of_light);
-        if (!component || is_seen(light)) return false;
+        if (!component || is_seen(i)) return false;
         add(Fault::shut_out, component->object, light);
         return true;
     }
 
     /// Whether the first point of a sensor sees the light: one that lies in a wall is on neither side of it.
-    bool is_seen(const Light& light) const {
+    bool is_seen(std::size_t light) {
         const auto sees = [&](const Vec3& point) {
-            return std::ranges::any_of(enclosures_.probe_rays_of(light), [&](const ProbeRay& ray) {
-                return !caster_.occluded(point, ray.position);
-            });
+            const auto is_visible = [&](const Vec3& from) { return !caster_.occluded(point, from); };
+            return std::ranges::any_of(enclosures_.probe_rays_of(scene_.lights[light]), is_visible,
+                                       &ProbeRay::position) ||
+                   std::ranges::any_of(points_of_lamps()[light], is_visible);
         };
         constexpr std::size_t most_sensors = 64;
         return std::ranges::any_of(std::span(first_).first(std::min(first_.size(), most_sensors)), sees);
+    }
+
+    /// A lamp may stand in a wall, with a small part on the side of the point.
+    bool sees_a_lamp(const Vec3& point) {
+        return std::ranges::any_of(points_of_lamps(), [&](const std::vector<Vec3>& points) {
+            return std::ranges::any_of(points,
+                                       [&](const Vec3& from) { return !caster_.occluded(point, from); });
+        });
+    }
+
+    /// Of each light, points from which it shines; few where lights are many.
+    const std::vector<std::vector<Vec3>>& points_of_lamps() {
+        constexpr std::size_t in_all = 1024;
+        const std::size_t each = std::max<std::size_t>(in_all / scene_.lights.size(), 1);
+        for (std::size_t light = points_of_lamps_.size(); light < scene_.lights.size(); ++light) {
+            const auto emitter =
+                lights::make_emitter(scene_.lights[light], scene::LightSurroundings(scene_), caster_.lift());
+            auto& points = points_of_lamps_.emplace_back();
+            for (std::uint64_t i = 0; i < each; ++i) {
+                math::SampleStream stream(math::RandomKey{}, i);
+                points.push_back(
+                    std::visit([&](const auto& own) { return own.emit(stream).origin; }, emitter));
+            }
+        }
+        return points_of_lamps_;
     }
 
     const Scene& scene_;
@@ -255,8 +293,9 @@ class PlacementCheck {
     const Enclosures& enclosures_;
     std::span<const Sensor> sensors_;
     EnclosureList lit_, of_sensors_;
-    std::vector<std::map<Enclosure, std::size_t>> counts_;  ///< by sensor: of its points
-    std::vector<Vec3> first_;                               ///< by sensor: where its first ray starts
+    std::vector<std::map<Enclosure, EnclosedPoints>> enclosed_;  ///< by sensor
+    std::vector<Vec3> first_;                                    ///< by sensor: where its first ray starts
+    std::vector<std::vector<Vec3>> points_of_lamps_;
     std::vector<FaultyLights> faulty_;
     std::vector<std::string> of_sky_;
 };

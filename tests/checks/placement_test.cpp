@@ -84,6 +84,34 @@ TEST(Placement, ThickWalls) {
     EXPECT_TRUE(has(warnings[0], "outside object \"room\"")) << warnings[0];
 }
 
+/// Two rooms with one wall, and a lamp under their ceilings that reaches through the wall: it lights the
+/// second room as soon as a part of it is there, from less than a fifth of its radius on (kNearRim).
+TEST(Placement, ALampThatReachesThroughAWall) {
+    const auto lamp_at = [](double x, const Shape& lamp) {
+        Scene scene;
+        scene.materials.push_back({"wall", Diffuse{Rgb::grey(0.5)}});
+        scene.objects.push_back({"left", Box{{0, 0, 0}, {4, 3, 2.5}}, {MaterialId{0}}});
+        scene.objects.push_back({"right", Box{{4, 0, 0}, {8, 3, 2.5}}, {MaterialId{0}}});
+        scene.objects.push_back(
+            {"panel",
+             geometry::transformed(lamp, {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {x, 1.5, 2.4}}),
+             {MaterialId{0}}});
+        scene.lights.push_back({"lamp", AreaLight{ObjectId{2}, Rgb::grey(1000)}});
+        return scene;
+    };
+    for (const Shape& lamp :
+         {Shape{Disk{{}, {0, 0, -1}, 0.25}}, Shape{Rectangle{{-0.25, -0.25, 0}, {0, 0.5, 0}, {0.5, 0, 0}}}}) {
+        const Sensor right = at({6, 1, 0}), left = at({1, 1, 0});
+        for (const double end : {0.01, 0.0499, 0.05, 0.0501, 0.2, 0.25}) {  // beyond the wall
+            const Scene scene = lamp_at(3.75 + end, lamp);
+            EXPECT_EQ(warnings_of(scene, {right}), Texts{}) << end;
+            EXPECT_EQ(warnings_of(scene, {left, right}), Texts{}) << end;
+        }
+        EXPECT_EQ(warnings_of(lamp_at(3.74, lamp), {right}).size(), 1u);
+        EXPECT_EQ(warnings_of(lamp_at(3.74, lamp), {left, right}).size(), 1u);
+    }
+}
+
 TEST(Placement, ALampInAClosedShade) {
     Scene scene = furnished_room();
     scene.objects.push_back({"shade", Sphere{{2, 2, 2}, 0.2}, {MaterialId{0}}});
