@@ -29,6 +29,17 @@ TEST(ResultsText, KeepsTheDigitsOfExactValues) {
     EXPECT_EQ(with_error({1.23456e-7, 1e-9, 1.22e-7, 1.24e-7}), "1.23e-07 ± 1e-09");
 }
 
+TEST(ResultsText, ShowsErrorsThatAreNotZero) {
+    const auto text = [](double value, double half) {
+        return with_error({value, half / 2, value - half, value + half});
+    };
+    EXPECT_EQ(text(0.00010134, 2e-7), "0.0001013 ± 0.0000002");
+    EXPECT_EQ(text(0.00010134, 2e-9), "0.0001013 ± 2e-09");
+    EXPECT_EQ(text(573.7112341, 3.2e-6), "573.711234 ± 0.000003");
+    EXPECT_EQ(text(573.7112341, 3e-9), "573.711234 ± 3e-09");
+    EXPECT_EQ(text(5, 0.0123), "5.000 ± 0.012");
+}
+
 TEST(ResultsText, HasNoMinusBeforeZero) {
     EXPECT_EQ(with_error({-0.001, 0.05, -0.101, 0.099}), "0.00 ± 0.10");
     EXPECT_EQ(with_error({-0.06, 0.05, -0.16, 0.04}), "-0.06 ± 0.10");

@@ -13,10 +13,14 @@ int decimals_after(double number, int digits) {
     return digits - 1 - static_cast<int>(std::floor(std::log10(std::abs(number))));
 }
 
-/// Two digits of the error, but at most six decimals; of exact values three digits at least.
+/// Two digits of the error, but at most six decimals, or four digits of the value; of exact values three
+/// digits at least.
 int decimals_for(const statistics::Estimate& e) {
     const double error = half_width(e);
-    if (error > 0 && std::isfinite(error)) return std::clamp(decimals_after(error, 2), 0, 6);
+    if (error > 0 && std::isfinite(error)) {
+        const int most = e.value == 0 ? 6 : std::max(6, decimals_after(e.value, 4));
+        return std::clamp(decimals_after(error, 2), 0, most);
+    }
     const int usual = std::abs(e.value) >= 1000 ? 1 : 2;
     return e.value == 0 ? usual : std::max(usual, decimals_after(e.value, 3));
 }
@@ -45,7 +49,11 @@ std::string with_error(const statistics::Estimate& estimate) {
     if (largest > 0 && largest < tiny)
         return fmt::format("{:.3g} ± {:.2g}", estimate.value, half_width(estimate));
     const int decimals = decimals_for(estimate);
-    return fmt::format("{} ± {:.{}f}", fixed(estimate.value, decimals), half_width(estimate), decimals);
+    const double error = half_width(estimate);
+    // Only an exact value has no error.
+    const bool vanishes = error > 0 && error < 0.5 * std::pow(10, -decimals);
+    return fixed(estimate.value, decimals) + " ± " +
+           (vanishes ? fmt::format("{:.1g}", error) : fmt::format("{:.{}f}", error, decimals));
 }
 
 std::string fixed(double value, int decimals) {
