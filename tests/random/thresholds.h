@@ -15,7 +15,18 @@ struct Threshold {
 
 std::span<const Threshold> thresholds();
 
-/// Prints the table. Returns the number of constants that do not stand in their file with their value.
+/// Other constants of a file: numbers of samples, costs and shares that weigh them, tolerances of rounding,
+/// limits beyond which input is refused, formats and units; and limits by which warnings are given and rooms,
+/// floors and bodies are recognised, which change no light where they are.
+struct OtherConstants {
+    std::string_view file, names;  ///< names with a space between them
+};
+
+std::span<const OtherConstants> other_constants();
+
+/// Prints the table of thresholds. Returns the number of errors: constants that do not stand in their file
+/// with their value, tests that do not exist, and numbers in the sources of what gives light that are in
+/// neither of both lists.
 int check_thresholds(const std::filesystem::path& sources);
 
 }  // namespace stilb::random

@@ -123,6 +123,22 @@ TEST(Solve, PicturesOfGlossySurfacesAreThoseOfPathTracing) {
     expect_the_light_of_paths(glossy_room(), 96, 512);
 }
 
+/// Up to 16 lamps a picture takes all of them, of more it chooses some (solution_picture.cpp, kMostLights).
+/// One lamp that is cut into several in one place gives the light of one.
+TEST(Solve, PicturesOfManyLampsLoseNoLight) {
+    const auto mean_of = [](int lamps) {
+        Scene scene = diffuse_room();
+        scene.lights.pop_back();
+        for (int i = 0; i < lamps; ++i) add_point_light(scene, {3.2, 2.4, 2}, Rgb::grey(400. / lamps));
+        return (picture_of_solution(scene, 96, 1).mean_luminance_cd_m2 +
+                picture_of_solution(scene, 96, 2).mean_luminance_cd_m2) /
+               2;
+    };
+    // A lamp of 17 would be 4 % of the light; the noise is 0.3 %.
+    const double one = mean_of(1);
+    for (const int lamps : {14, 15, 16}) EXPECT_NEAR(mean_of(lamps) / one, 1, 0.015);  // and one with an area
+}
+
 /// Boxes on the floor cover parts of patches; ray-bundle spreads the light of the free part over all of
 /// them, and is 1.4 % dark in such a room.
 TEST(Solve, ThingsOnTheFloorTakeNoLight) {

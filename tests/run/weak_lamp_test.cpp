@@ -132,5 +132,25 @@ TEST(WeakLamp, IsPossibleWhateverLiesElsewhere) {
     EXPECT_NEAR(PossibleLight(scene, caster, 100).of(floor), alone_lx, 1e-9 * alone_lx);
 }
 
+/// What lies no higher above the reading than rays tell apart reflects nothing to it; what is higher may.
+TEST(WeakLamp, IsPossibleWhereSomethingIsAboveTheReading) {
+    const auto possible_lx = [](double top_m, double reflectance, int max_reflections) {
+        Scene scene;
+        add_object(scene, Rectangle{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, diffuse(0.5));
+        add_object(scene, Box{{2, 2, -1}, {2.5, 2.5, top_m}}, diffuse(reflectance));
+        add_point_light(scene, {1, 1, 1}, Rgb::grey(1));
+        const rays::RayCaster caster(scene);
+        return PossibleLight(scene, caster, max_reflections).of(MeasuringPoint{{1, 1, 0}, {0, 0, 1}});
+    };
+    const double lift_m = 0x1p-19 * 1.5;  // the scene extends 1.5 m around its middle
+    EXPECT_EQ(possible_lx(-0.1, 0.5, 100), 0);
+    EXPECT_EQ(possible_lx(1.9 * lift_m, 0.5, 100), 0);
+    EXPECT_GT(possible_lx(2.1 * lift_m, 0.5, 100), 0);
+    EXPECT_GT(possible_lx(0.1, 0.5, 1), 0);
+    EXPECT_EQ(possible_lx(0.1, 0.5, 0), 0);
+    EXPECT_EQ(possible_lx(0.1, 0, 100), 0);
+    EXPECT_GT(possible_lx(0.1, 1e-9, 100), 0);
+}
+
 }  // namespace
 }  // namespace stilb::run

@@ -71,6 +71,27 @@ TEST(Lift, OfThingsSeenFromAfarGrowsWithTheDistance) {
     EXPECT_EQ(lift.offset_m({}, 0.1, 1000), 2 * lift.offset_m({}, 0.1, 500));
 }
 
+/// Of many points and triangles only some are compared (kMostPoints, kMostVisits): the centre is where most
+/// of the points are, all the same.
+TEST(LiftOf, IsAroundTheMeasuredPointsHoweverManyThereAre) {
+    const Vec3 map{3.5e6, 5.4e6, 100};
+    Scene scene;
+    add_room(scene, map);
+    add_object(scene, triangle_at({}), diffuse(0.5));
+    for (const int count : {1, 2, 31, 32, 33, 100}) {
+        std::vector<Vec3> points;
+        for (int i = 0; i < count; ++i) points.push_back(map + Vec3{1 + 0.02 * i, 1, 0});
+        EXPECT_LT(length(lift_of(scene, points).center() - map), 5) << count;
+    }
+    const std::vector<Vec3> points(40, map + Vec3{1, 1, 0});
+    for (const std::uint32_t triangles : {624'996, 624'997, 624'998}) {  // and three others
+        Scene large = scene;
+        Mesh& mesh = std::get<Mesh>(large.objects.back().shape);
+        mesh.triangles.resize(triangles, mesh.triangles.front());
+        EXPECT_LT(length(lift_of(large, points).center() - map), 5) << triangles;
+    }
+}
+
 /// Where nothing is measured nearby, things are lifted for those who see them.
 TEST(LiftOf, KnowsHowFarTheNearestMeasuredPointIs) {
     Scene scene;

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 
 #include "stilb/error.h"
@@ -32,6 +33,18 @@ TEST(LightGroups, ThereAreNotTooMany) {
     EXPECT_EQ(groups.of_light[30], 30u);
     EXPECT_EQ(groups.of_light[31], 31u);
     EXPECT_EQ(groups.of_light[39], 31u);
+}
+
+TEST(LightGroups, UpTo32EachHasItsOwn) {
+    for (const std::uint32_t lights : {31, 32, 33}) {
+        Scene scene;
+        for (std::uint32_t i = 0; i < lights; ++i)
+            scene.lights.push_back({"light_" + std::to_string(i), PointLight{{0, 0, 1}, Rgb::grey(10)}});
+        const LightGroups groups = light_groups(scene);
+        EXPECT_EQ(groups.count(), std::min(lights, 32u));
+        EXPECT_EQ(groups.names.back(), lights <= 32 ? "light_" + std::to_string(lights - 1) : "others");
+        for (std::uint32_t i = 0; i < lights; ++i) EXPECT_EQ(groups.of_light[i], std::min(i, 31u));
+    }
 }
 
 TEST(LightGroups, FactorsScaleTheirLights) {

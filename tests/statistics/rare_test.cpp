@@ -29,6 +29,22 @@ TEST(RareLight, RaisesTheUpperEndOfIntervals) {
     EXPECT_DOUBLE_EQ(raised.upper - 11, std::hypot(plain.upper - 11, 5));
 }
 
+/// Four times the typical contribution; 2 % of the reading or, of many samples, their root; 0.7 errors.
+TEST(RareLight, IsNamedAboveItsLimits) {
+    const auto is_named = [](double overall, double value, double error, std::uint64_t samples) {
+        return rests_on_few_samples({.value = value, .standard_error = error}, {overall, 1}, samples);
+    };
+    EXPECT_FALSE(is_named(3.99, 0, 0, 100));
+    EXPECT_FALSE(is_named(4, 0, 0, 100));
+    EXPECT_TRUE(is_named(4.01, 0, 0, 100));
+    EXPECT_TRUE(is_named(5, 1.99, 1, 100));
+    EXPECT_FALSE(is_named(5, 2.01, 1, 100));
+    EXPECT_TRUE(is_named(5, 0.0399, 1, 10'000));
+    EXPECT_FALSE(is_named(5, 0.0401, 1, 10'000));
+    EXPECT_TRUE(is_named(5, 1e9, 0.0399 / 0.7, 100));
+    EXPECT_FALSE(is_named(5, 1e9, 0.0401 / 0.7, 100));
+}
+
 /// A run: the sums of its replicates, and their largest contributions.
 struct SimulatedRun {
     Estimate estimate;

@@ -57,8 +57,22 @@ TEST(ChoiceFavours, GiveWeakLightsAShareWhereTheyShine) {
     EXPECT_GT(share_of_first(sign_in_a_ball(1e-6, 1e9, false)), kWeakChoice / 2);
 }
 
+/// The weak one gets a share, however little weaker than a comparable one it is.
+TEST(ChoiceFavours, BeginAbove16Times) {
+    for (const double other_cd : {16.1, 17.0}) {
+        const Scene scene = sign_in_a_ball(1, other_cd, false);
+        const rays::RayCaster caster(scene);
+        EXPECT_GE(LightSampler(scene, caster).choice_favour(0), 1) << other_cd;
+        EXPECT_GT(share_of_first(scene), 0.5);
+    }
+    for (const double weight : {15.9, 16.0, 16.1}) {
+        const double favour = emission_favours(std::vector<double>{weight, 1})[1];
+        EXPECT_EQ(favour > 1, weight > 16) << weight;
+    }
+}
+
 TEST(ChoiceFavours, LeaveComparableLightsAlone) {
-    for (const double other_cd : {0.01, 1.0, 15.9}) {
+    for (const double other_cd : {0.01, 1.0, 15.9, 16.0}) {
         const Scene scene = sign_in_a_ball(1, other_cd, false);
         const rays::RayCaster caster(scene);
         const LightSampler lights(scene, caster);
