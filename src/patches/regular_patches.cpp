@@ -15,6 +15,8 @@ namespace {
 using Floats = RayPacket::Floats;
 using Words = RayPacket::Words;
 
+/// Larger objects may have triangles that are small, near to where light is measured.
+constexpr double kLargeObject_m = 1024;
 constexpr std::uint32_t kMostParts = 1024;  ///< so that numbers of patches are exact in single precision
 
 std::array<Vec3, 3> corners_of(const rays::TracedMesh& mesh, std::uint32_t triangle) {
@@ -138,7 +140,8 @@ void RegularPatches::add(const Object& object, ObjectId id, double patch_area_m2
     const std::optional<rays::TracedMesh> mesh = caster_.traced_mesh(id);
     first_division_.push_back(mesh ? static_cast<std::uint32_t>(divisions_.size()) : kNoSide);
     const Bounds bounds = geometry::bounds_of(object.shape);
-    PartsMesh parts(caster_.offset_m(bounds.middle(), length(bounds.max - bounds.min)) / 4);
+    const double offset_m = caster_.offset_m(bounds.middle(), length(bounds.max - bounds.min));
+    PartsMesh parts(std::min(offset_m, Lift::kShare * kLargeObject_m) / 4);
     const std::size_t before = divisions_.size();
     for (std::uint32_t i = 0; mesh && i < mesh->triangles.size(); ++i) {
         const std::array<Vec3, 3> corners = corners_of(*mesh, i);
