@@ -60,24 +60,21 @@ Vector narrow(const Vec3& v) {
     return {static_cast<float>(v.x), static_cast<float>(v.y), static_cast<float>(v.z)};
 }
 
-/// Finds in double precision which of the lanes that may be inside are, and returns whether any is. An edge's
-/// product changes its sign with the order of the ends and is the same otherwise, bit by bit, because each
-/// operation rounds alike for both signs. Not inlined: the versions of the calling function may fuse
-/// multiplications and additions, which would round differently by the order of the ends.
+/// Finds in double precision which of the lanes that may be inside are, and returns whether any is. Not
+/// inlined, because few triangles need it.
 [[gnu::noinline]] std::int32_t settle(const TestedTriangle& triangle, const RayPacket& rays,
                                       Crossed& crossed) {
+    const std::array<Vec3, 3> corners{wide(triangle.corners[0]), wide(triangle.corners[1]),
+                                      wide(triangle.corners[2])};
     std::int32_t any = 0;
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         if (crossed.is_inside[i] == 0) continue;
-        const Vec3 origin{rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]};
-        const Vec3 direction{rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]};
-        const Vec3 a = wide(triangle.corners[0]) - origin, b = wide(triangle.corners[1]) - origin,
-                   c = wide(triangle.corners[2]) - origin;
-        const double u = stilb::dot(cross(c, a), direction), v = stilb::dot(cross(a, b), direction),
-                     w = stilb::dot(cross(b, c), direction);
-        crossed.u[i] = static_cast<float>(u), crossed.v[i] = static_cast<float>(v);
-        crossed.w[i] = static_cast<float>(w);
-        crossed.is_inside[i] = std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0 ? 1 : 0;
+        const EdgeProducts products =
+            edge_products(corners, {rays.origin_x[i], rays.origin_y[i], rays.origin_z[i]},
+                          {rays.direction_x[i], rays.direction_y[i], rays.direction_z[i]});
+        crossed.u[i] = static_cast<float>(products.u), crossed.v[i] = static_cast<float>(products.v);
+        crossed.w[i] = static_cast<float>(products.w);
+        crossed.is_inside[i] = products.are_inside() ? 1 : 0;
         any |= crossed.is_inside[i];
     }
     return any;
@@ -147,6 +144,15 @@ STILB_VECTORIZED void keep_open(const TestedTriangle& __restrict triangle, const
 }
 
 }  // namespace
+
+// Not inlined: the versions of a calling function may fuse multiplications and additions, which would round
+// differently by the order of an edge's ends.
+[[gnu::noinline]] EdgeProducts edge_products(const std::array<Vec3, 3>& corners, const Vec3& origin,
+                                             const Vec3& direction) {
+    const Vec3 a = corners[0] - origin, b = corners[1] - origin, c = corners[2] - origin;
+    return {stilb::dot(cross(c, a), direction), stilb::dot(cross(a, b), direction),
+            stilb::dot(cross(b, c), direction)};
+}
 
 void FewTriangles::add(std::uint32_t object, std::uint32_t primitive, const std::array<Vector, 3>& corners) {
     // Each product is a sum of six terms, of which the ray's moment has the largest error: some ten roundings

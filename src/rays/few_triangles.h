@@ -7,14 +7,26 @@
 // of them, and none is caught beside an edge, as at a small opening.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
 
 #include "base/rays.h"
+#include "base/vec.h"
 #include "rays/surface_packet.h"
 
 namespace stilb::rays {
+
+/// Products of a line with the edges of a triangle that are opposite its second, third and first corner, in
+/// double precision. An edge's product changes its sign with the order of the ends and is the same otherwise,
+/// bit by bit: a line that passes between two triangles passes through one of them.
+struct EdgeProducts {
+    double u, v, w;
+    bool are_inside() const { return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0; }
+};
+/// Of coordinates in single precision.
+EdgeProducts edge_products(const std::array<Vec3, 3>& corners, const Vec3& origin, const Vec3& direction);
 
 /// A triangle as lines are tested against it, relative to RayCaster::center().
 struct TestedTriangle {

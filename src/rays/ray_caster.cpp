@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,8 +16,11 @@
 #include "rays/crossings.h"
 #include "rays/embree_geometry.h"
 #include "rays/few_triangles.h"
+#include "rays/grazed_edges.h"
 #include "rays/packet_parts.h"
 #include "rays/surface_packet.h"
+#include "scene/fine_things.h"
+#include "scene/sealed_sides.h"
 #include "stilb/error.h"
 
 namespace stilb::rays {
@@ -131,7 +135,11 @@ struct RayCaster::Implementation {
     SharedMeshes shared_meshes;
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
     std::vector<MetObject> met_objects;
+    std::optional<GrazedEdges> grazed_edges;
+    bool sees_fine_things = false;
     std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
+    mutable std::once_flag sealed_once;         ///< is_sealed is found when it is asked for
+    mutable std::vector<bool> is_sealed;        ///< sealed_sides()
 
     Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> measured)
         : scene(s), lift_rule(scene::lift_of(s, measured)) {
@@ -146,6 +154,8 @@ struct RayCaster::Implementation {
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
         embree_scene = new_scene(device);
+        grazed_edges.emplace(embree_scene, geometries);
+        sees_fine_things = scene::sees_fine_things(s, measured);
         for (const Object& object : scene.objects) add(object);
         rtcSetSceneProgressMonitorFunction(embree_scene, report_build, const_cast<Monitor*>(&monitor));
         rtcCommitScene(embree_scene);
@@ -167,6 +177,10 @@ struct RayCaster::Implementation {
         const RTCGeometry embree_geometry =
             instance == nullptr ? new_geometry(device, object.shape, center, *geometries.back())
                                 : shared_meshes.new_instance(device, *instance, center, *geometries.back());
+        if (sees_fine_things && geometries.back()->vertices != nullptr && instance == nullptr) {
+            rtcSetGeometryUserData(embree_geometry, &*grazed_edges);
+            rtcSetGeometryOccludedFilterFunction(embree_geometry, GrazedEdges::drop_from_occlusion);
+        }
         rtcCommitGeometry(embree_geometry);
         rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
         met_objects.emplace_back(*geometries.back(), object.materials);
@@ -284,22 +298,48 @@ struct RayCaster::Implementation {
     }
 
     void closest_by_single_rays(RayHitPacket& packet, const LaneMask& lanes) const {
-        RTCIntersectContext context;
-        rtcInitIntersectContext(&context);
         packet.object.fill(kNothing);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            if (lanes[i] == 0) continue;
-            RTCRayHit found{ray_of(packet.ray, i), {}};
+            if (lanes[i] != 0) find_closest(packet, i);
+        }
+    }
+
+    /// The first hit of one ray of a packet that has none.
+    void find_closest(RayHitPacket& packet, std::size_t lane) const {
+        const RTCRayHit found = closest(ray_of(packet.ray, lane));
+        const RTCHit& met = found.hit;
+        if (met.geomID == RTC_INVALID_GEOMETRY_ID) return;
+        packet.ray.end[lane] = found.ray.tfar;
+        packet.normal_x[lane] = met.Ng_x, packet.normal_y[lane] = met.Ng_y, packet.normal_z[lane] = met.Ng_z;
+        packet.u[lane] = met.u, packet.v[lane] = met.v;
+        packet.primitive[lane] = met.primID;
+        packet.object[lane] = object_of(met.geomID, met.instID[0]);
+        packet.instance[lane] = met.instID[0];
+    }
+
+    RTCRayHit closest(RTCRay ray) const {
+        RTCIntersectContext context;
+        rtcInitIntersectContext(&context);
+        for (;;) {
+            RTCRayHit found{ray, {}};
             found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(embree_scene, &context, &found);
-            const RTCHit& met = found.hit;
-            if (met.geomID == RTC_INVALID_GEOMETRY_ID) continue;
-            packet.ray.end[i] = found.ray.tfar;
-            packet.normal_x[i] = met.Ng_x, packet.normal_y[i] = met.Ng_y, packet.normal_z[i] = met.Ng_z;
-            packet.u[i] = met.u, packet.v[i] = met.v;
-            packet.primitive[i] = met.primID;
-            packet.object[i] = object_of(met.geomID, met.instID[0]);
-            packet.instance[i] = met.instID[0];
+            if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID || !grazed_edges->is_beside(found)) return found;
+            ray.tnear = std::nextafter(found.ray.tfar, kInfinity);
+        }
+    }
+
+    /// Lets rays go on that have met an edge from beside. `ends`: of the rays before they have met something.
+    void pass_edges(RayHitPacket& packet, const RayPacket::Floats& ends) const {
+        if (!GrazedEdges::any_near_edge(packet)) return;
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (packet.object[i] == kNothing || !grazed_edges->is_beside(met_by(packet, i))) continue;
+            const float start = packet.ray.start[i];
+            packet.ray.start[i] = std::nextafter(packet.ray.end[i], kInfinity);
+            packet.ray.end[i] = ends[i];
+            packet.object[i] = kNothing;
+            find_closest(packet, i);
+            packet.ray.start[i] = start;
         }
     }
 
@@ -347,9 +387,9 @@ struct RayCaster::Implementation {
         return ray;
     }
 
-    Hit hit_of(const RayHitPacket& packet, std::size_t lane) const {
+    static RTCRayHit met_by(const RayHitPacket& packet, std::size_t lane) {
         auto* const found = reinterpret_cast<RTCRayHitN*>(const_cast<RayHitPacket*>(&packet));
-        return hit_of(rtcGetRayHitFromRayHitN(found, kPacketWidth, static_cast<unsigned>(lane)));
+        return rtcGetRayHitFromRayHitN(found, kPacketWidth, static_cast<unsigned>(lane));
     }
 
     /// Between positions relative to the centre.
@@ -374,13 +414,10 @@ double RayCaster::offset_m(const Vec3& position, double size_m) const {
 }
 
 std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction) const {
-    RTCRayHit ray_hit{Implementation::ray_from(origin - center(), direction, kInfinity), {}};
-    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-    RTCIntersectContext context;
-    rtcInitIntersectContext(&context);
-    rtcIntersect1(implementation_->embree_scene, &context, &ray_hit);
-    if (ray_hit.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
-    return implementation_->hit_of(ray_hit);
+    const RTCRayHit found =
+        implementation_->closest(Implementation::ray_from(origin - center(), direction, kInfinity));
+    if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
+    return implementation_->hit_of(found);
 }
 
 std::vector<Crossing> RayCaster::crossings(const Vec3& origin, const Vec3& direction) const {
@@ -422,6 +459,7 @@ void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence c
     if (implementation_->takes_single_rays()) return implementation_->closest_by_single_rays(packet, lanes);
     RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
+    const RayPacket::Floats ends = packet.ray.end;
     packet.object.fill(kNothing);
     switch (implementation_->packet_width) {
         case 16:
@@ -437,10 +475,11 @@ void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence c
                 rtcIntersect4(valid, embree_scene, &context, part);
             });
     }
+    implementation_->pass_edges(packet, ends);
 }
 
 Hit RayCaster::hit(const RayHitPacket& packet, std::size_t lane) const {
-    return implementation_->hit_of(packet, lane);
+    return implementation_->hit_of(Implementation::met_by(packet, lane));
 }
 
 void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) const {
@@ -481,6 +520,12 @@ std::optional<TracedMesh> RayCaster::traced_mesh(ObjectId object) const {
     return TracedMesh{{geometry.vertices, geometry.vertex_count},
                       {geometry.triangles, geometry.triangle_count},
                       geometry.parents};
+}
+
+bool RayCaster::is_sealed(const Hit& hit) const {
+    const Implementation& all = *implementation_;
+    std::call_once(all.sealed_once, [&] { all.is_sealed = sealed_sides(all.scene); });
+    return all.is_sealed[object_side(hit.object, hit.on_front)];
 }
 
 const Scene& RayCaster::scene() const { return implementation_->scene; }

@@ -130,6 +130,9 @@ class RayCaster {
     /// For lanes that are set: `end` becomes negative where a surface is met between `start` and `end`.
     void occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence = Coherence::coherent) const;
 
+    /// Whether a hit is on the inside of a closed body that no light reaches (scene/sealed_sides.h).
+    bool is_sealed(const Hit& hit) const;
+
     /// The triangles of an object; nothing for curved surfaces and instances.
     std::optional<TracedMesh> traced_mesh(ObjectId object) const;
 
