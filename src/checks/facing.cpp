@@ -9,6 +9,7 @@
 
 #include "checks/checks.h"
 #include "checks/walks.h"
+#include "sensors/place.h"
 
 namespace stilb::checks {
 namespace {
@@ -95,7 +96,7 @@ std::optional<Facing> faced_by(const std::vector<MeasuringPoint>& points, const 
     std::size_t hidden = 0;
     Facing facing{{}, kHiding_m};
     for (const MeasuringPoint& point : points) {
-        const auto hit = caster.closest(lifted_position(point, caster), point.normal);
+        const auto hit = caster.closest(place_of(point, caster).lifted, point.normal);
         if (!hit || hit->distance_m > kHiding_m) continue;
         ++hidden;
         if (hit->distance_m < facing.distance_m) facing = {hit->object, hit->distance_m};
@@ -117,7 +118,7 @@ std::optional<ObjectId> lit_from_behind(const std::vector<MeasuringPoint>& point
     std::size_t turned = 0;
     std::optional<ObjectId> object;
     for (const MeasuringPoint& point : points) {
-        const auto surface = surface_at(point, caster);
+        const auto surface = place_of(point, caster).surface;
         if (!surface || is_lit({surface->lifted, surface->normal}) ||
             !is_lit({surface->lifted_behind(), -surface->normal}))
             continue;

@@ -5,6 +5,7 @@
 
 #include "checks/checks.h"
 #include "checks/walks.h"
+#include "sensors/place.h"
 #include "stilb/error.h"
 
 namespace stilb::checks {
@@ -31,7 +32,7 @@ class HiddenPoints {
 
   private:
     ProbeRay probe_of(const MeasuringPoint& point) const {
-        return {lifted_position(point, caster_), point.normal};
+        return {place_of(point, caster_).lifted, point.normal};
     }
 
     const Scene& scene_;

@@ -7,6 +7,7 @@
 
 #include "checks/checks.h"
 #include "checks/walks.h"
+#include "sensors/place.h"
 
 namespace stilb::checks {
 namespace {
@@ -53,7 +54,7 @@ std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const S
 ProbeRay ray_of(const Measurand& measurand, const rays::RayCaster& caster) {
     const MeasuringPoint point = viewpoint_of(measurand);
     const auto* body = std::get_if<BodyPoint>(&measurand);
-    return {body ? lifted_position(*body, caster) : lifted_position(point, caster), point.normal};
+    return {body ? place_of(*body, caster).lifted : place_of(point, caster).lifted, point.normal};
 }
 
 /// Rays along which the light of the readings arrives.
@@ -69,7 +70,7 @@ std::optional<std::string> body_warning(const Sensor& sensor, const rays::RayCas
     std::size_t on_surfaces = 0;
     for (const Measurand& measurand : sensor.measurands()) {
         const auto* body = std::get_if<BodyPoint>(&measurand);
-        on_surfaces += body && surface_at(*body, caster);
+        on_surfaces += body && place_of(*body, caster).surface;
     }
     if (on_surfaces == 0) return std::nullopt;
     const std::string which =
@@ -306,7 +307,7 @@ ProbeRay first_ray_of(const Sensor& sensor, const rays::RayCaster& caster) {
     const Camera* camera = sensor.camera();
     if (!camera) return ray_of(sensor.measurand(0), caster);
     const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
-    return {lifted_position(viewpoint, caster), viewpoint.normal};
+    return {place_of(viewpoint, caster).lifted, viewpoint.normal};
 }
 
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "checks/checks.h"
+#include "sensors/place.h"
 
 namespace stilb::checks {
 namespace {
@@ -19,7 +20,7 @@ constexpr double kSmallOffset_m = 1e-4;
 
 /// The median distance of the surfaces around a point; nothing where most of its sides are open.
 std::optional<double> distance_around(const MeasuringPoint& point, const rays::RayCaster& caster) {
-    const Vec3 from = lifted_position(point, caster);
+    const Vec3 from = place_of(point, caster).lifted;
     std::array<double, 6> distances_m;
     distances_m.fill(Bounds::kInfinity);
     constexpr std::array<Vec3, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};

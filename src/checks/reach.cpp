@@ -9,6 +9,7 @@
 #include "checks/checks.h"
 #include "checks/walks.h"
 #include "math/sampling.h"
+#include "sensors/place.h"
 
 namespace stilb::checks {
 namespace {
@@ -45,9 +46,9 @@ std::optional<WalkStart> start_of(const Measurand& measurand, const rays::RayCas
     const MeasuringPoint point = viewpoint_of(measurand);
     if (const auto* body = std::get_if<BodyPoint>(&measurand)) {
         const Vec3 direction = math::sample_sphere(u1, u2).direction;
-        return WalkStart{{lifted_position(*body, caster), direction}, direction, true};
+        return WalkStart{{place_of(*body, caster).lifted, direction}, direction, true};
     }
-    const Location at{lifted_position(point, caster), point.normal};
+    const Location at{place_of(point, caster).lifted, point.normal};
     if (std::holds_alternative<LineOfSight>(measurand)) return WalkStart{at, point.normal};
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);

@@ -9,11 +9,6 @@
 
 #include "base/vec.h"
 
-namespace stilb::rays {
-class RayCaster;
-struct Hit;
-}  // namespace stilb::rays
-
 namespace stilb::sensors {
 
 /// The illuminance [lx] that arrives at `position` on the side that the unit `normal` points to.
@@ -82,28 +77,6 @@ struct Quantity {
     std::string_view name, unit;
 };
 inline constexpr Quantity kIlluminance{"illuminance", "lx"}, kLuminance{"luminance", "cd/m2"};
-
-/// The surface that a point lies on, on the side of its normal.
-std::optional<rays::Hit> surface_at(const MeasuringPoint& point, const rays::RayCaster& caster);
-
-/// The start of rays from a point.
-struct RayStart {
-    Vec3 position;
-    Vec3 lift{};  ///< off the surface that the point lies on; 0 where it lies on none
-};
-/// Of a measuring point: off the surface that it lies on, if any, on the side of its normal.
-RayStart ray_start(const MeasuringPoint& point, const rays::RayCaster& caster);
-inline Vec3 lifted_position(const MeasuringPoint& point, const rays::RayCaster& caster) {
-    return ray_start(point, caster).position;
-}
-
-/// The surface that a body lies on, on the assumed side of the body: where its axis points to, or
-/// the front where the axis lies in the surface. Nothing for a body that stands free.
-std::optional<rays::Hit> surface_at(const BodyPoint& body, const rays::RayCaster& caster);
-
-/// The start of rays from a body: its position, if it stands free; else lifted off the surface that it lies
-/// on, which then hides half of the sphere from it.
-Vec3 lifted_position(const BodyPoint& body, const rays::RayCaster& caster);
 
 }  // namespace stilb::sensors
 

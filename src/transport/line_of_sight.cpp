@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "sensors/place.h"
+
 namespace stilb::transport {
 
 namespace {
@@ -11,6 +13,13 @@ namespace {
 constexpr double kLeastTransmission = 0.005;
 /// The limit of interactions, because light can be trapped in glass.
 constexpr int kMostFollowed = 32;
+
+/// The first surface along a ray, where light can be measured on it.
+std::optional<rays::Hit> first_met(const Vec3& origin, const Vec3& direction, const rays::RayCaster& caster) {
+    const auto hit = caster.closest(origin, direction);
+    if (!hit || is_specular(caster.scene().material(hit->material))) return hit;
+    return sensors::clear_of_walls(*hit, origin, caster);
+}
 
 class LineOfSightFollower {
   public:
@@ -35,7 +44,7 @@ class LineOfSightFollower {
             const Rgb left = transmission * branch.share * branch.luminance_factor;
             if (left.max() < kLeastTransmission || met > kMostFollowed) {
                 sight.faint.push_back({branch.origin, branch.direction, left, met});
-            } else if (const auto next = caster_.closest(branch.origin, branch.direction)) {
+            } else if (const auto next = first_met(branch.origin, branch.direction, caster_)) {
                 follow(*next, branch.direction, left, met);
             } else {
                 sight.emission_cd_m2 += left * lights_.outside_luminance(branch.direction);
@@ -56,10 +65,10 @@ class LineOfSightFollower {
 
 std::optional<rays::Hit> first_surface(const Measurand& luminance, const rays::RayCaster& caster) {
     const MeasuringPoint viewpoint = viewpoint_of(luminance);
-    if (std::holds_alternative<LineOfSight>(luminance)) {
-        return caster.closest(lifted_position(viewpoint, caster), viewpoint.normal);
-    }
-    return surface_at(viewpoint, caster);
+    const sensors::Place place = place_of(viewpoint, caster);
+    if (std::holds_alternative<LineOfSight>(luminance))
+        return first_met(place.lifted, viewpoint.normal, caster);
+    return place.surface;
 }
 
 Vec3 viewing_direction(const Measurand& luminance) {

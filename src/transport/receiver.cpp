@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "math/morton.h"
+#include "sensors/place.h"
 #include "transport/weights.h"
 
 namespace stilb::transport {
@@ -20,33 +21,30 @@ const Material& white() {
 }  // namespace
 
 Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster)
-    : Receiver(reading, point, ray_start(point, caster)) {}
-
-Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const sensors::RayStart& start)
-    : position_(point.position),
-      lifted_(start.position),
-      lift_(start.lift),
-      normal_(point.normal),
+    : normal_(point.normal),
       surface_(white(), normal_, normal_),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
-      reading_(reading) {}
+      reading_(reading) {
+    const sensors::Place place = place_of(point, caster);
+    position_ = place.position;
+    lifted_ = place.lifted;
+    lift_ = place.lift;
+}
 
 Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster)
-    : position_(body.position),
-      lifted_(body.position),
-      surface_(white(), body.axis, body.axis),
+    : surface_(white(), body.axis, body.axis),
       body_(body.sensitivity),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
       reading_(reading) {
-    if (const auto surface = surface_at(body, caster)) {
-        lifted_ = surface->lifted;
-        lift_ = surface->lift_m * surface->normal;
-        horizon_ = surface->normal;
-    }
+    const sensors::Place place = place_of(body, caster);
+    position_ = place.position;
+    lifted_ = place.lifted;
+    lift_ = place.lift;
+    if (place.surface) horizon_ = place.surface->normal;
 }
 
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)

@@ -83,8 +83,6 @@ class Receiver {
   private:
     void set_constant_response();
 
-    Receiver(std::uint32_t reading, const MeasuringPoint& point, const sensors::RayStart& start);
-
     Vec3 position_, lifted_, lift_, normal_;
     materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "estimators/receivers.h"
+#include "sensors/place.h"
 #include "support/random_pairs.h"
 #include "support/scene_builder.h"
 #include "transport/weights.h"
@@ -49,7 +50,7 @@ TEST(Receivers, ArePermutedSoThatNeighboursStandTogether) {
         readings.insert(sorted[i].reading());
         EXPECT_EQ(sorted[i].normal(), point.normal);
         EXPECT_EQ(sorted[i].position(), point.position);
-        EXPECT_EQ(sorted[i].lifted(), lifted_position(point, caster));
+        EXPECT_EQ(sorted[i].lifted(), place_of(point, caster).lifted);
         if (i == 0) continue;
         steps += length(sorted[i].position() - sorted[i - 1].position());
         unsorted_steps += length(points[i].position - points[i - 1].position);
@@ -63,7 +64,7 @@ TEST(Receivers, ArePermutedSoThatNeighboursStandTogether) {
 /// W f_r w G (theory T.1b), one node and point at a time, in double precision.
 Rgb contribution_lx(const transport::LightVertex& node, const MeasuringPoint& point, double k_per_m2,
                     const rays::RayCaster& caster) {
-    const Vec3 w = normalized(point.position - node.position), to = lifted_position(point, caster);
+    const Vec3 w = normalized(point.position - node.position), to = place_of(point, caster).lifted;
     const double cos_node = dot(w, node.normal), cos_point = -dot(w, point.normal);
     if (cos_node <= 0 || cos_point <= 0 || caster.occluded(node.lifted, to)) {
         return {};
@@ -83,7 +84,7 @@ double body_contribution(const transport::LightVertex& node, const BodyPoint& bo
                          const rays::RayCaster& caster) {
     const Vec3 way = body.position - node.position, w = normalized(way);
     const double cos_node = dot(w, node.normal);
-    if (cos_node <= 0 || caster.occluded(node.lifted, lifted_position(body, caster))) return 0;
+    if (cos_node <= 0 || caster.occluded(node.lifted, place_of(body, caster).lifted)) return 0;
     const double s = body.sensitivity->of(Frame::of_surface(body.axis).to_local(-w));
     const double g = cos_node * s / squared_length(way);
     const double reflectance = std::get<Diffuse>(*node.material).reflectance.luminance();

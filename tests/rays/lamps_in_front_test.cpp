@@ -8,6 +8,7 @@
 #include "rays/ray_caster.h"
 #include "scene/overlaps.h"
 #include "sensors/measurand.h"
+#include "sensors/place.h"
 
 namespace stilb::scene {
 namespace {
@@ -129,10 +130,10 @@ TEST(LampsInFront, TheSecondTimeNothingMoves) {
 TEST(LampsInFront, SensorsInThePlaneLieOnTheLamp) {
     const Scene scene = room_with_lamp(kRoom, panel_at(2.8));
     const rays::RayCaster caster(scene);
-    const auto surface = surface_at(MeasuringPoint{{2, 1.5, 2.8}, {0, 0, -1}}, caster);
+    const auto surface = place_of(MeasuringPoint{{2, 1.5, 2.8}, {0, 0, -1}}, caster).surface;
     ASSERT_TRUE(surface);
     EXPECT_EQ(surface->object, ObjectId{1});
-    EXPECT_EQ(surface_at(MeasuringPoint{{1, 1, 2.8}, {0, 0, -1}}, caster)->object, ObjectId{0});
+    EXPECT_EQ(place_of(MeasuringPoint{{1, 1, 2.8}, {0, 0, -1}}, caster).surface->object, ObjectId{0});
 }
 
 }  // namespace

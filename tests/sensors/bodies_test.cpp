@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "rays/ray_caster.h"
+#include "sensors/place.h"
 #include "support/quadrature.h"
 #include "support/scene_builder.h"
 
@@ -143,15 +144,15 @@ TEST(Bodies, StandFree) {
     const Scene scene = room();
     const rays::RayCaster caster(scene);
     for (const BodyPoint& body : bodies()) {
-        EXPECT_FALSE(surface_at(body, caster));
-        EXPECT_EQ(lifted_position(body, caster), body.position);
+        EXPECT_FALSE(place_of(body, caster).surface);
+        EXPECT_EQ(place_of(body, caster).lifted, body.position);
     }
 }
 
 TEST(Bodies, OnASurfaceAreWhereTheirAxisPoints) {
     const Scene scene = room();
     const rays::RayCaster caster(scene);
-    const auto height = [&](const Measurand& body) { return lifted_position(body_of(body), caster).z; };
+    const auto height = [&](const Measurand& body) { return place_of(body_of(body), caster).lifted.z; };
     const std::vector<Vec3> on_floor{{1, 2, 0}};
     EXPECT_GT(height(Cylindrical{on_floor}.measurand(0)), 0);
     EXPECT_GT(height(Spherical{on_floor}.measurand(0)), 0);
@@ -167,9 +168,9 @@ TEST(Bodies, WithAnAxisInTheSurfaceAreOnItsFront) {
     const rays::RayCaster caster(scene);
     for (const double x : {0.0, 4.0}) {
         const BodyPoint body = body_of(Cylindrical{{{x, 2, 1.5}}}.measurand(0));
-        ASSERT_TRUE(surface_at(body, caster)) << x;
-        EXPECT_EQ(surface_at(body, caster)->normal, (Vec3{1, 0, 0})) << x;
-        EXPECT_GT(lifted_position(body, caster).x, x);
+        ASSERT_TRUE(place_of(body, caster).surface) << x;
+        EXPECT_EQ(place_of(body, caster).surface->normal, (Vec3{1, 0, 0})) << x;
+        EXPECT_GT(place_of(body, caster).lifted.x, x);
     }
 }
 

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "lights/emitter_surface.h"
+#include "sensors/place.h"
 
 namespace stilb::transport {
 namespace {
@@ -56,7 +57,7 @@ struct Place {
 class Eye {
   public:
     Eye(const MeasuringPoint& at, const rays::RayCaster& caster, const LightSampler& lights)
-        : position_(at.position), sight_(at.normal), caster_(caster), lights_(lights) {}
+        : position_(place_of(at, caster).lifted), sight_(at.normal), caster_(caster), lights_(lights) {}
 
     /// One replicate's samples of the lamp's surface.
     Seen see(std::size_t light, const lights::EmitterSurface& surface, math::RandomKey key,
