@@ -5,8 +5,8 @@
 //
 // Pilots of the methods give their variances. Chosen is the method that takes the least work to the wanted
 // error, with the work of its set-up; a method whose set-up alone takes more than all of the other is not
-// tried. All are unbiased, and the choice depends on samples with random keys of their own: the result is
-// unbiased, too.
+// tried, nor one that finds clearly less light than path tracing. All are unbiased, and the choice depends on
+// samples with random keys of their own: the result is unbiased, too.
 
 #include <algorithm>
 #include <cmath>
@@ -52,6 +52,8 @@ constexpr double kQuickPilotCost = 125, kLeastQuickPaths = 2, kClearly = 2. / 3;
 /// With many Sobol' points light paths have less noise than their pilots promise: a grid behind a door took
 /// half the time to 20 % that the guess did, where they promised 0.86 of it (docs/performance.md).
 constexpr double kSobolGain = 1.25;
+/// Samples of a pilot's part by path tracing with which other methods are compared.
+constexpr std::uint64_t kComparedPaths = 8;
 /// Samples of a pilot's part by the guess.
 constexpr std::uint64_t kGuidedSamples = 4;
 
@@ -147,6 +149,24 @@ bool finds_light(const Pilot& pilot, std::span<const double> values, const Probl
     return true;
 }
 
+/// Whether a method has found clearly less light than path tracing: it finds some so rarely that its pilot
+/// has missed it, such as light paths of the sky which start around a scene that is much larger than the room
+/// with the readings. Then its variance says nothing.
+bool misses_light(const Pilot& pilot, const Pilot& of_path, const Problem& problem) {
+    constexpr double standard_errors = 4;
+    const std::vector<double> values = values_of(pilot, of_path), dark = dark_levels(values, problem);
+    // Readings by path tracing are independent; those of other methods share their samples.
+    double missing = 0, path_squares = 0, own = 0;
+    for (std::size_t j = 0; j < values.size(); ++j) {
+        const double value = std::max(values[j], dark[j]);
+        if (!(value > 0)) continue;
+        missing += (of_path.means[j] - pilot.means[j]) / value;
+        path_squares += of_path.deviations[j] * of_path.deviations[j] / (value * value);
+        own += pilot.deviations[j] / value;
+    }
+    return missing * std::sqrt(double{kPilots}) > standard_errors * (std::sqrt(path_squares) + own);
+}
+
 std::unique_ptr<Estimator> make_for_few(Problem problem) {
     if (has_light_for_light_paths_only(problem.scene)) return make_balanced(problem);
     problem.preparation_key = kPilotKey;
@@ -170,6 +190,7 @@ std::unique_ptr<Estimator> make_for_few(Problem problem) {
     const Pilot of_balanced = run_pilot_of_few(*balanced, balanced->batch_granularity(), kBalanced);
     const std::vector<double> values = values_of(of_path, of_balanced);
     if (!finds_light(of_path, values, problem)) return balanced;
+    if (misses_light(of_balanced, of_path, problem)) return path;
     const bool path_pays =
         sampling_cost(of_path, values, problem) < sampling_cost(of_balanced, values, problem);
     return path_pays ? std::move(path) : std::move(balanced);
@@ -220,11 +241,16 @@ std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
     const Problem part = survey.part_of(problem);
     const std::unique_ptr<Estimator> balanced_part = make_balanced(part);
     const Pilot of_balanced = run_pilot(*balanced_part, balanced_part->batch_granularity(), kBalanced);
+    const Pilot of_path = run_pilot(*make_path(part), kComparedPaths, kPath);
+    const bool balanced_misses = misses_light(of_balanced, of_path, part);
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     const double guess = kPatchCost * LightGuess::patch_count(problem.scene);
-    if (planning + sampling_cost(of_balanced, of_balanced.means, part) < guess) return make_balanced(problem);
+    if (!balanced_misses && planning + sampling_cost(of_balanced, of_balanced.means, part) < guess)
+        return make_balanced(problem);
     const EstimatorMaker make_guided_part = with_guess(part);
     const Pilot of_guided = run_pilot(*make_guided_part(part), kGuidedSamples, kGuided);
+    if (balanced_misses)
+        return misses_light(of_guided, of_path, part) ? make_path(problem) : make_guided_part(problem);
     const std::vector<double> values = values_of(of_balanced, of_guided);
     const bool guess_pays = kSobolGain * sampling_cost(of_guided, values, part) <
                             planning + sampling_cost(of_balanced, values, part);

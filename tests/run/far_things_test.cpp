@@ -126,6 +126,41 @@ TEST(FarThings, ChangeNoReadingOfAClosedRoom) {
     }
 }
 
+/// Light paths of the sky start around the whole scene: beside a stray thing a kilometre away hardly one
+/// finds a room. A method that finds clearly less light than path tracing is not taken.
+TEST(FarThings, LeaveARoomWithAWindowTheLightOfTheSky) {
+    const auto room = [](double stray_m) {
+        Scene scene;
+        add_object(scene, Rectangle{{0, 0, 0}, {5, 0, 0}, {0, 4, 0}}, diffuse(0.6));
+        add_object(scene, Rectangle{{0, 0, 0}, {0, 4, 0}, {0, 0, 3}}, diffuse(0.6));
+        add_object(scene, Rectangle{{5, 0, 0}, {0, 0, 3}, {0, 4, 0}}, diffuse(0.6));
+        add_object(scene, Rectangle{{0, 0, 0}, {0, 0, 1}, {5, 0, 0}}, diffuse(0.6));
+        add_object(scene, Rectangle{{0, 4, 0}, {5, 0, 0}, {0, 0, 3}}, diffuse(0.6));
+        add_object(scene, Rectangle{{0, 0, 3}, {0, 4, 0}, {5, 0, 0}}, diffuse(0.6));
+        if (stray_m > 0)
+            add_object(scene, Rectangle{{stray_m, stray_m, 0}, {0.3, 0, 0}, {0, 0.3, 0}}, diffuse(0.6));
+        add_environment(scene, Rgb::grey(1000));
+        add_point_light(scene, {2, 2, 2.5}, Rgb::grey(100));
+        return scene;
+    };
+    for (const int count : {5, 12}) {
+        const Sensor grid{"desk", Grid{{0.2, 0.2, 0.75}, {4.6, 0, 0}, {0, 3.6, 0}, {count, count}}};
+        const auto mean = [&](const Scene& scene, std::string_view method) {
+            RunOptions options;
+            options.method = method;
+            options.paths = method == "path" ? 2048 : 8192;
+            return measure(scene, {&grid, 1}, options).sensors[0].summary.mean;
+        };
+        const auto right = mean(room(0), "path");
+        for (const double stray_m : {100.0, 1e3, 1e5}) {
+            const auto found = mean(room(stray_m), "auto");
+            EXPECT_NEAR(found.value, right.value, 4 * std::hypot(found.standard_error, right.standard_error))
+                << count << ' ' << stray_m;
+            EXPECT_LT(found.standard_error, 0.05 * right.value) << count << ' ' << stray_m;
+        }
+    }
+}
+
 TEST(FarThings, ARoomAtMapCoordinatesWithATriangleLeftAtTheOrigin) {
     const Vec3 map{3.5e6, 5.4e6, 120};
     const Mesh stray{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
