@@ -79,7 +79,7 @@ class Surroundings {
             } else if (place.surface) {
                 place = {position, position};
             }
-            if (!is_clear_around(place) || !accepts(place)) continue;
+            if (!is_clear_around(place) || is_beyond_a_wall(direction, place) || !accepts(place)) continue;
             const double sight = sight_from(place.lifted);
             if (best && is_on_surface == best_is_on_surface && sight <= best_sight) continue;
             best = place, best_sight = sight, best_is_on_surface = is_on_surface;
@@ -106,6 +106,13 @@ class Surroundings {
         if (!is_clear_across(place.lifted, offset_m_)) return false;
         const Vec3 upwards = offset_m_ * point_.normal;
         return place.surface || !caster_.occluded(place.position - upwards, place.position + upwards);
+    }
+
+    /// Whether a surface separates a place in this direction from the point, one that is farther from this
+    /// than it may seem to be by rounding errors.
+    bool is_beyond_a_wall(const Vec3& direction, const Place& place) const {
+        const Vec3 start = own_place(point_, caster_).lifted + 2 * offset_m_ * direction;
+        return caster_.occluded(start, place.lifted);
     }
 
     /// Whether the point is on the rim of a surface, which a ray to it may miss by rounding errors.

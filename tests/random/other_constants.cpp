@@ -31,7 +31,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/estimators/auto.cpp",
          "kReplicates kPilots kPlanningRayCost kPatchCost kWorthPlanning "
          "kPathPilotCost kLeastPaths kQuickPilotCost kLeastQuickPaths kClearly "
-         "kSobolGain kGuidedSamples kPilotBlock kPilotRows kPilotPasses "
+         "kSobolGain kComparedPaths kGuidedSamples kPilotBlock kPilotRows kPilotPasses "
          "kPilotReplicates kGuidedPassCost kGlossyPassCost"},
         {"src/estimators/camera_paths.cpp", "sobol_dimensions deviation kPacketSobolDimensions"},
         {"src/estimators/camera_paths.h", "kPixels"},
@@ -81,7 +81,7 @@ std::span<const OtherConstants> other_constants() {
          "kMaps"},
         {"src/estimators/patch_light/patch_options.h", "kAutomatic"},
         {"src/estimators/patch_light/patch_readings.cpp",
-         "kRaysPerSample kShare kRaysPerPath kMostComparisons kMostSamples kViews "
+         "kFaint kRaysPerSample kShare kRaysPerPath kMostComparisons kMostSamples kViews "
          "kComparisons"},
         {"src/estimators/patch_light/patch_transport.cpp", "kRaysPerPatch stretch"},
         {"src/estimators/patch_light/patch_transport.h", "kConstant"},
@@ -123,11 +123,11 @@ std::span<const OtherConstants> other_constants() {
         {"src/lights/colour_temperature.h", "kMinColourTemperature_k kMaxColourTemperature_k"},
         {"src/lights/emitter_elements.cpp", "least"},
         {"src/lights/environment.cpp", "share least_m least"},
-        {"src/lights/opening_shape.cpp", "kThinShare kPlateShare kEqualShare kCorners kDirections"},
+        {"src/lights/opening_shape.cpp", "kThinShare kPlateShare kEqualShare kCorners"},
         {"src/lights/opening_shape.h", "kSmallestOpening_m kLargestOpening_m"},
         {"src/lights/panorama.cpp", "kLargest kMostPartsAcross"},
         {"src/lights/photometric_solid.cpp",
-         "kRadiansPerDegree kBorderRad kMargin kMostIterations step margin"},
+         "equator horizon kRadiansPerDegree kBorderRad kMargin kMostIterations step margin"},
         {"src/lights/photometric_solid.h", "kSmallestStepDeg kBounds"},
         {"src/lights/solid_angle/projected_parallelogram.cpp", "kLastError most_steps"},
         {"src/lights/solid_angle/projected_solid_angle.cpp", "kInPlane most_tries"},
@@ -165,7 +165,9 @@ std::span<const OtherConstants> other_constants() {
         {"src/rays/ray_caster.cpp", "kInfinity most"},
         {"src/rays/shaft_query.cpp", "kItemsOfLeaf kRounding infinity at_once"},
         {"src/rays/surface_packet.h", "kNothing kEdgeMargin"},
-        {"src/run/campaign.cpp", "kRaysPerRound kLongestBatch kFewReplicates kReadingReserve kStrands"},
+        {"src/run/campaign.cpp",
+         "kBytesOfReading bytes_of_sum kRaysPerRound kLongestBatch kFewReplicates kReadingReserve kStrands"},
+        {"src/run/campaign.h", "kGuessBytes"},
         {"src/run/glare/daylight_glare.cpp", "kOfIlluminance kOfGlare kOffset kExponent kTimesMean none"},
         {"src/run/glare/glare.cpp", "kLeastShareOfGlare kUndefined kPerRelative kNoGlare kInfinite"},
         {"src/run/glare/glare_picture.cpp", "kWidth kPasses"},
@@ -186,6 +188,7 @@ std::span<const OtherConstants> other_constants() {
          "kSolutionReplicates kWalks kFirstCheck kStepsAtOnce kStepsToFindLight "
          "default_time_s"},
         {"src/run/solve.h", "kDefaultDegree kSolutionPatches"},
+        {"src/scene/fine_things.cpp", "kRounding kLostShare"},
         {"src/scene/glass_bodies.cpp", "kWeld_m most_of_part"},
         {"src/scene/light_groups.cpp", "last"},
         {"src/scene/overlaps.cpp", "kLeastShare kLongestShare kDeepest corners most"},
@@ -213,6 +216,7 @@ std::span<const OtherConstants> other_constants() {
          "kFromOutside kLeast_m kIlluminance_lx kMostRooms kSky_cd_m2"},
         {"src/sensors/glare.h", "least_sine"},
         {"src/sensors/goniometer.cpp", "rounding per_degree"},
+        {"src/sensors/place.cpp", "kParallel count kGoldenAngle"},
         {"src/sensors/sensor.cpp", "all horizontal most"},
         {"src/sensors/sensor.h", "kSensorTypeNames"},
         {"src/statistics/bias.cpp", "kErrors"},

@@ -132,6 +132,23 @@ INSTANTIATE_TEST_SUITE_P(Methods, EdgePointsBy, testing::ValuesIn(methods()), []
     return name;
 });
 
+/// Only a wall that is as near as rounding errors may be crossed.
+TEST(EdgePoints, StayOnTheirSideOfAWall) {
+    Scene scene;
+    add_object(scene, Box{{-50, -50, -50}, {50, 50, 50}}, diffuse(0.5));
+    add_object(scene, Box{{0, 0, 0}, {0.1, 0.1, 0.1}}, diffuse(0.5));
+    const rays::RayCaster caster(scene);
+    const double offset_m = caster.offset_m({}, caster.lift().largest_size_m());
+    for (const double offsets : {-7.0, -5.0, -3.0, 3.0, 5.0, 7.0}) {
+        for (const Vec3& normal : {Vec3{0, 0, 1}, Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
+            const double x = offsets * offset_m;
+            const sensors::Place place = sensors::place_of(MeasuringPoint{{x, 0.05, 0.05}, normal}, caster);
+            EXPECT_EQ(place.position.x > 0, offsets > 0) << offsets;
+            EXPECT_EQ(place.lifted.x > 0, offsets > 0) << offsets;
+        }
+    }
+}
+
 /// A sphere on an edge lies on the floor, which hides half of it; the wall does not.
 TEST(EdgePoints, ASphereOnAnEdgeSeesTheUpperHalf) {
     const std::vector<Sensor> spheres{{"spheres", Spherical{{{0, 1, 0}, {2, 2, 0}}}}};
