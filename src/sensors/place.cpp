@@ -111,8 +111,7 @@ class Surroundings {
     /// Whether a surface separates a place in this direction from the point, one that is farther from this
     /// than it may seem to be by rounding errors.
     bool is_beyond_a_wall(const Vec3& direction, const Place& place) const {
-        const Vec3 start = own_place(point_, caster_).lifted + 2 * offset_m_ * direction;
-        return caster_.occluded(start, place.lifted);
+        return caster_.occluded(place.lifted, place.lifted - (margin_m() - 2 * offset_m_) * direction);
     }
 
     /// Whether the point is on the rim of a surface, which a ray to it may miss by rounding errors.
