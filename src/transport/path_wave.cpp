@@ -79,7 +79,7 @@ void PathWave::reflect(PathPacket& paths, LaneMask& lanes, rays::Coherence coher
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         plain[i] = paths.general[i] == PathPacket::kPlain ? lanes[i] : 0;
     }
-    ConnectionPacket connections;
+    ConnectionPacket connections{};  // Embree computes with unused lanes, too
     LaneMask going = plain;
     if (any(plain)) reflect_plain(paths, going, connections);
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
@@ -98,7 +98,7 @@ void PathWave::reflect_plain(PathPacket& paths, LaneMask& lanes, ConnectionPacke
         for (std::size_t b = 0; b < kBands; ++b) reflectance[b][i] = of_material[b];
         if (paths.reflections_left[i]-- == 0) lanes[i] = 0;
     }
-    LightPacket light;
+    LightPacket light{};
     if (tracer_.lane_lights_) {
         const math::NumberPacket numbers = next_four(paths.streams, sobol_dimensions_);
         tracer_.lane_lights_->sample(paths.surface, numbers, light);
