@@ -34,7 +34,7 @@ template <typename ExactLx>
 void expect_exact(const DirectLight& direct, std::span<const Receiver> receivers,
                   const DirectLight::Prepared& prepared, const ExactLx& exact_lx) {
     const DirectLight::Remainder& remainder = prepared.remainders[0];
-    constexpr std::uint64_t samples = 12000;
+    constexpr std::uint64_t samples = 20000;
     std::array<double, kPacketWidth> sums{}, squares{};
     for (std::uint64_t k = 0; k < (remainder.is_empty() ? 0 : samples); ++k) {
         std::vector<math::SampleStream> streams;
