@@ -515,8 +515,8 @@ def scene_text(building: Building, source: str) -> str:
 
 
 def _margin_m(outline: np.ndarray) -> float:
-    """Of EN 12464-1: 0.5 m, or 15 % of the smallest dimension where that is less. This is taken as the diameter
-    of the largest circle in the outline, among 64 x 64 middles."""
+    """The margin of EN 12464-1: 0.5 m, or 15 % of the smallest dimension of the room if that is less. The smallest
+    dimension is the diameter of the largest circle within the outline, with a middle on a raster of 64 x 64."""
     starts = outline[:, :2]
     edges = np.roll(starts, -1, axis=0) - starts
     least, size = starts.min(axis=0), np.ptp(starts, axis=0)

@@ -272,7 +272,7 @@ class PlacementCheck {
         });
     }
 
-    /// Of each light, points from which it shines; few where lights are many.
+    /// Points of each light from which it shines. Each light has fewer of them where there are many lights.
     const std::vector<std::vector<Vec3>>& points_of_lamps() {
         constexpr std::size_t in_all = 1024;
         const std::size_t each = std::max<std::size_t>(in_all / scene_.lights.size(), 1);

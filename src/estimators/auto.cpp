@@ -20,6 +20,7 @@
 #include "estimators/local/split_plan.h"
 #include "materials/split_material.h"
 #include "math/morton.h"
+#include "statistics/hypothesis.h"
 #include "statistics/interval.h"
 
 namespace stilb::estimators {
@@ -67,9 +68,10 @@ constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.5;
 
 /// The readings of the parts of a pilot.
 struct Pilot {
-    std::vector<double> means, deviations;  ///< of each reading: mean and standard deviation of the parts
-    double cost = 0;                        ///< of a part
-    double least_cost = 0;                  ///< of the smallest run
+    std::vector<double> means, deviations;   ///< of each reading: mean and standard deviation of the parts
+    double cost = 0;                         ///< of a part
+    double least_cost = 0;                   ///< of the smallest run
+    std::vector<std::vector<double>> parts;  ///< the readings of each
 };
 
 Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose purpose) {
@@ -83,7 +85,7 @@ Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose pur
             parts[part].push_back(mean.luminance());
         }
     });
-    Pilot pilot{{}, {}, static_cast<double>(samples) * method.cost_per_sample()};
+    Pilot pilot{{}, {}, static_cast<double>(samples) * method.cost_per_sample(), 0, {}};
     for (std::size_t j = 0; j < readings; ++j) {
         double mean = 0, squares = 0;
         for (const auto& part : parts) mean += part[j] / kPilots;
@@ -91,6 +93,7 @@ Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose pur
         pilot.means.push_back(mean);
         pilot.deviations.push_back(std::sqrt(squares / (kPilots - 1)));
     }
+    pilot.parts = std::move(parts);
     return pilot;
 }
 
@@ -153,18 +156,21 @@ bool finds_light(const Pilot& pilot, std::span<const double> values, const Probl
 /// has missed it, such as light paths of the sky which start around a scene that is much larger than the room
 /// with the readings. Then its variance says nothing.
 bool misses_light(const Pilot& pilot, const Pilot& of_path, const Problem& problem) {
-    constexpr double standard_errors = 4;
+    constexpr double standard_errors = 4, rounding = 1e-4;
     const std::vector<double> values = values_of(pilot, of_path), dark = dark_levels(values, problem);
-    // Readings by path tracing are independent; those of other methods share their samples.
-    double missing = 0, path_squares = 0, own = 0;
-    for (std::size_t j = 0; j < values.size(); ++j) {
-        const double value = std::max(values[j], dark[j]);
-        if (!(value > 0)) continue;
-        missing += (of_path.means[j] - pilot.means[j]) / value;
-        path_squares += of_path.deviations[j] * of_path.deviations[j] / (value * value);
-        own += pilot.deviations[j] / value;
-    }
-    return missing * std::sqrt(double{kPilots}) > standard_errors * (std::sqrt(path_squares) + own);
+    const auto relative_sum = [&](const Pilot& of_method) {
+        std::vector<double> sums(of_method.parts.size());
+        for (std::size_t i = 0; i < sums.size(); ++i) {
+            for (std::size_t j = 0; j < values.size(); ++j) {
+                const double value = std::max(values[j], dark[j]);
+                if (value > 0) sums[i] += of_method.parts[i][j] / value;
+            }
+        }
+        return statistics::estimate_from_replicates(sums);
+    };
+    const statistics::Estimate all = relative_sum(of_path), found = relative_sum(pilot);
+    return all.value - found.value > rounding * all.value &&
+           statistics::z_score(all, found) > standard_errors;
 }
 
 std::unique_ptr<Estimator> make_for_few(Problem problem) {
@@ -236,21 +242,25 @@ struct Survey {
 };
 
 std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
-    if (problem.max_reflections != transport::kUnlimited) return make_balanced(problem);
     const Survey survey(problem);
     const Problem part = survey.part_of(problem);
+    const bool finds_all_by_rays = !has_light_for_light_paths_only(problem.scene);
     const std::unique_ptr<Estimator> balanced_part = make_balanced(part);
     const Pilot of_balanced = run_pilot(*balanced_part, balanced_part->batch_granularity(), kBalanced);
     const Pilot of_path = run_pilot(*make_path(part), kComparedPaths, kPath);
     const bool balanced_misses = misses_light(of_balanced, of_path, part);
+    if (problem.max_reflections != transport::kUnlimited)
+        return balanced_misses && finds_all_by_rays ? make_path(problem) : make_balanced(problem);
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     const double guess = kPatchCost * LightGuess::patch_count(problem.scene);
     if (!balanced_misses && planning + sampling_cost(of_balanced, of_balanced.means, part) < guess)
         return make_balanced(problem);
     const EstimatorMaker make_guided_part = with_guess(part);
     const Pilot of_guided = run_pilot(*make_guided_part(part), kGuidedSamples, kGuided);
-    if (balanced_misses)
-        return misses_light(of_guided, of_path, part) ? make_path(problem) : make_guided_part(problem);
+    if (balanced_misses) {
+        const bool guess_misses = misses_light(of_guided, of_path, part);
+        return guess_misses && finds_all_by_rays ? make_path(problem) : make_guided_part(problem);
+    }
     const std::vector<double> values = values_of(of_balanced, of_guided);
     const bool guess_pays = kSobolGain * sampling_cost(of_guided, values, part) <
                             planning + sampling_cost(of_balanced, values, part);
@@ -291,7 +301,7 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
             for (std::size_t j = 0; j < samples.size(); ++j) sums[j] += samples[j].luminance() / kPilotPasses;
         }
     });
-    Pilot pilot{{}, {}, cost};
+    Pilot pilot{{}, {}, cost, 0, {}};
     for (const auto& [first, second] : luminances) {
         for (std::size_t j = 0; j < first.size(); ++j) {
             pilot.means.push_back((first[j] + second[j]) / 2);

@@ -14,6 +14,9 @@ namespace stilb::math {
 /// The largest number below 1: rounding must not move a number in [0, 1) beyond it.
 inline constexpr double kBelowOne = 0x1.fffffffffffffp-1;
 
+/// The rotation between consecutive directions that never lets them line up [rad].
+inline constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers::phi);
+
 struct DirectionSample {
     Vec3 direction;  ///< unit vector
     double pdf_per_sr = 0;

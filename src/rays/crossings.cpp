@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/vec.h"
+#include "rays/few_triangles.h"
 
 namespace stilb::rays {
 namespace {
@@ -24,13 +25,9 @@ struct Search {
     std::vector<CrossedPrimitive> found;
 
     bool is_crossed(const std::array<Vec3, 3>& corners) const {
-        const auto& [a, b, c] = corners;
-        const Vec3 edge_1 = b - a, edge_2 = c - a, across = cross(direction, edge_2);
-        const double determinant = dot(edge_1, across);
-        if (determinant == 0) return false;
-        const Vec3 from_a = origin - a, along = cross(from_a, edge_1);
-        const double u = dot(from_a, across) / determinant, v = dot(direction, along) / determinant;
-        return u >= 0 && v >= 0 && u + v <= 1 && dot(edge_2, along) / determinant > 0;
+        if (!edge_products(corners, origin, direction).are_inside()) return false;
+        const Vec3 normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
+        return dot(normal, corners[0] - origin) * dot(normal, direction) > 0;  // in front of the origin
     }
 
     void add(std::uint32_t object, std::uint32_t primitive) {

@@ -1,4 +1,4 @@
-// All surfaces along a ray, also those that share a place, of which the closest hit is but one.
+// Finds all surfaces that a ray crosses. Where several of them share a place, a closest hit names only one.
 #pragma once
 
 #include <embree3/rtcore.h>

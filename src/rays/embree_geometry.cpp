@@ -1,13 +1,19 @@
 #include "rays/embree_geometry.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <span>
+#include <string>
+#include <string_view>
 #include <utility>
 #include <variant>
 
 #include "geometry/cut.h"
+#include "scene/scene.h"
+#include "stilb/error.h"
 
 namespace stilb::rays {
 namespace {
@@ -16,6 +22,8 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 /// Triangles up to this size lift points by 15 micrometres at most, near the centre: little beside the
 /// distances of lighting. Smaller rooms stay as they are.
 constexpr double kLargeTriangle_m = 8;
+/// As readers of files have it: products of four lengths are far from overflow in single precision.
+constexpr double kFarthest_m = 1e9;
 
 /// The common data of a curved surface's callbacks for N rays, at lane i.
 RayInterval interval_of(RTCRayN* rays, unsigned width, unsigned lane) {
@@ -145,6 +153,26 @@ RTCGeometry new_curved(RTCDevice device, const EmbreeGeometry& kept) {
 }
 
 }  // namespace
+
+void require_within_reach(const Scene& scene) {
+    const auto require = [](std::string_view kind, const std::string& name, const Vec3& at) {
+        const double farthest_m = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+        if (farthest_m <= kFarthest_m) return;
+        throw InputError(fmt::format(
+            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 1e9 m are possible. Check the units: Stilb "
+            "expects metres.",
+            kind, name, farthest_m));
+    };
+    for (const Object& object : scene.objects) {
+        const Bounds bounds = geometry::bounds_of(object.shape);
+        if (bounds.is_empty()) continue;
+        require("object", object.name, bounds.min);
+        require("object", object.name, bounds.max);
+    }
+    for (const Light& light : scene.lights) {
+        if (const auto origin = lights::point_origin(light)) require("light", light.name, origin->position);
+    }
+}
 
 RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept) {
     kept.curved = curved_surface(shape, origin);

@@ -76,6 +76,9 @@ struct EmbreeGeometry {
 /// where it is. A curved surface's parts are the geometry's primitives.
 RTCGeometry new_geometry(RTCDevice device, const Shape& shape, const Vec3& origin, EmbreeGeometry& kept);
 
+/// Throws InputError where an object or a light has a coordinate beyond 1e9 m.
+void require_within_reach(const Scene& scene);
+
 /// The meshes of instances, each of which Embree stores once.
 class SharedMeshes {
   public:

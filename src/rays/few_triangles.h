@@ -25,7 +25,7 @@ struct EdgeProducts {
     double u, v, w;
     bool are_inside() const { return std::min({u, v, w}) >= 0 || std::max({u, v, w}) <= 0; }
 };
-/// Of coordinates in single precision.
+/// Precondition: the coordinates are numbers of single precision, so that their differences are exact.
 EdgeProducts edge_products(const std::array<Vec3, 3>& corners, const Vec3& origin, const Vec3& direction);
 
 /// A triangle as lines are tested against it, relative to RayCaster::center().

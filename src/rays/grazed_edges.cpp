@@ -8,7 +8,7 @@
 namespace stilb::rays {
 namespace {
 
-/// What is looked for around a hit.
+/// The search for a triangle around a hit that the ray meets.
 struct Neighbours {
     const std::vector<std::unique_ptr<EmbreeGeometry>>& geometries;
     Vec3 origin, direction;
@@ -80,7 +80,7 @@ bool GrazedEdges::meets_nothing(const RTCRayHit& found) const {
     Neighbours neighbours{geometries_, {ray.org_x, ray.org_y, ray.org_z}, {ray.dir_x, ray.dir_y, ray.dir_z}};
     const std::array<Vec3, 3> corners = geometry.corners_of(hit.primID);
     if (edge_products(corners, neighbours.origin, neighbours.direction).are_inside()) return false;
-    // Of the triangles with the same edge or corner, one may be met of which Embree has missed the edge.
+    // The ray may meet another triangle with this edge or corner, although Embree has missed that one.
     const Vec3 at = neighbours.origin + double{ray.tfar} * neighbours.direction;
     double largest_m = length(at);
     for (const Vec3& corner : corners) largest_m = std::max(largest_m, length(corner - at));

@@ -9,7 +9,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "base/vec.h"
@@ -21,7 +20,6 @@
 #include "rays/surface_packet.h"
 #include "scene/fine_things.h"
 #include "scene/sealed_sides.h"
-#include "stilb/error.h"
 
 namespace stilb::rays {
 namespace {
@@ -39,29 +37,6 @@ bool report_build(void* monitor, double share) {
 
 void throw_error(void*, RTCError, const char* message) {
     throw std::runtime_error(fmt::format("Embree: {}", message));
-}
-
-/// As readers of files have it: products of four lengths are far from overflow in single precision.
-constexpr double kFarthest_m = 1e9;
-
-void require_within_reach(const Scene& scene) {
-    const auto require = [](std::string_view kind, const std::string& name, const Vec3& at) {
-        const double farthest_m = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
-        if (farthest_m <= kFarthest_m) return;
-        throw InputError(fmt::format(
-            "{} \"{}\" reaches a coordinate of {:.2g} m; up to 1e9 m are possible. Check the units: Stilb "
-            "expects metres.",
-            kind, name, farthest_m));
-    };
-    for (const Object& object : scene.objects) {
-        const Bounds bounds = geometry::bounds_of(object.shape);
-        if (bounds.is_empty()) continue;
-        require("object", object.name, bounds.min);
-        require("object", object.name, bounds.max);
-    }
-    for (const Light& light : scene.lights) {
-        if (const auto origin = lights::point_origin(light)) require("light", light.name, origin->position);
-    }
 }
 
 /// The point with barycentric coordinates b, moved away from the triangle's edges by `margin` metres where it
@@ -126,6 +101,7 @@ struct MetObject {
 
 struct RayCaster::Implementation {
     const Scene& scene;
+    bool sees_fine_things;
     Lift lift_rule;
     const Vec3& center = lift_rule.center();  ///< the origin of Embree's coordinates
     bool has_panes = false;
@@ -136,13 +112,14 @@ struct RayCaster::Implementation {
     std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
     std::vector<MetObject> met_objects;
     std::optional<GrazedEdges> grazed_edges;
-    bool sees_fine_things = false;
     std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
     mutable std::once_flag sealed_once;         ///< is_sealed is found when it is asked for
     mutable std::vector<bool> is_sealed;        ///< sealed_sides()
 
     Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> measured)
-        : scene(s), lift_rule(scene::lift_of(s, measured)) {
+        : scene(s),
+          sees_fine_things(scene::sees_fine_things(s, measured)),
+          lift_rule(scene::lift_of(s, measured, sees_fine_things)) {
         require_within_reach(s);
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
@@ -155,7 +132,6 @@ struct RayCaster::Implementation {
         if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
         embree_scene = new_scene(device);
         grazed_edges.emplace(embree_scene, geometries);
-        sees_fine_things = scene::sees_fine_things(s, measured);
         for (const Object& object : scene.objects) add(object);
         rtcSetSceneProgressMonitorFunction(embree_scene, report_build, const_cast<Monitor*>(&monitor));
         rtcCommitScene(embree_scene);

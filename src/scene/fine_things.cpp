@@ -40,6 +40,7 @@ std::size_t triangle_count(const Shape& shape) {
 }  // namespace
 
 bool sees_fine_things(const Scene& scene, std::span<const Vec3> measured) {
+    if (measured.empty()) return false;
     const double coarse_m =
         kRounding / kLostShare * std::min(bounds_of(scene).half_extent(), kLargestHalfExtent_m);
     std::size_t visits = 0;

@@ -7,7 +7,6 @@
 #include <variant>
 #include <vector>
 
-#include "scene/fine_things.h"
 #include "scene/scene.h"
 
 namespace stilb::scene {
@@ -124,9 +123,9 @@ Vec3 center_of(const Scene& scene, std::span<const Vec3> measured) {
 
 }  // namespace
 
-Lift lift_of(const Scene& scene, std::span<const Vec3> measured) {
+Lift lift_of(const Scene& scene, std::span<const Vec3> measured, bool sees_fine_things) {
     const Bounds bounds = bounds_of(scene);
-    const bool is_large = bounds.half_extent() > kLargeHalfExtent_m || sees_fine_things(scene, measured);
+    const bool is_large = bounds.half_extent() > kLargeHalfExtent_m || sees_fine_things;
     const Vec3 center = is_large ? center_of(scene, measured) : bounds.middle();
     double half_extent_m =
         is_large ? std::max(largest_coordinate(bounds.max - center), largest_coordinate(bounds.min - center))

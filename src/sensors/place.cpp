@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "geometry/shape.h"
+#include "math/sampling.h"
 #include "rays/surface_packet.h"
 #include "scene/scene.h"
 
@@ -131,19 +132,15 @@ class Surroundings {
     }
 
     /// Along the surface, obliquely upwards, and upwards.
-    static std::array<Vec3, 25> local_directions() {
+    std::array<Vec3, 25> directions() const {
         std::array<Vec3, 25> all;
         for (std::size_t i = 0; i < 24; ++i) {
             const double azimuth = static_cast<double>(i % 16) * kPi / (i < 16 ? 8 : 4);
             const double cosine = i < 16 ? 1 : std::sqrt(0.5);
-            all[i] = {cosine * std::cos(azimuth), cosine * std::sin(azimuth), i < 16 ? 0 : cosine};
+            all[i] = frame_.to_world(
+                {cosine * std::cos(azimuth), cosine * std::sin(azimuth), i < 16 ? 0 : cosine});
         }
-        all[24] = {0, 0, 1};
-        return all;
-    }
-    std::array<Vec3, 25> directions() const {
-        std::array<Vec3, 25> all = local_directions();
-        for (Vec3& direction : all) direction = frame_.to_world(direction);
+        all[24] = frame_.w;
         return all;
     }
 
@@ -153,7 +150,7 @@ class Surroundings {
         constexpr int count = 32;
         double sum = 0;
         for (int i = 0; i < count; ++i) {
-            const double height = (i + 0.5) / count, azimuth = kGoldenAngle * i;
+            const double height = (i + 0.5) / count, azimuth = math::kGoldenAngle * i;
             const double sine = std::sqrt(1 - height * height);
             const Vec3 direction =
                 frame_.to_world({sine * std::cos(azimuth), sine * std::sin(azimuth), height});
@@ -163,7 +160,6 @@ class Surroundings {
         return sum;
     }
 
-    static constexpr double kGoldenAngle = 2.399963229728653;
     MeasuringPoint point_;
     const rays::RayCaster& caster_;
     Frame frame_;

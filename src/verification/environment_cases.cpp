@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "exact/configuration_factors.h"
+#include "math/sampling.h"
 #include "verification/verification.h"
 
 namespace stilb::verification {
@@ -24,7 +25,7 @@ std::vector<exact::Receiver> elements() {
     std::vector<exact::Receiver> all;
     int i = 0;
     for (const double tilt_deg : {0.0, 40.0, 70.0, 100.0, 180.0}) {
-        const double azimuth = i * kGoldenAngle, tilt = tilt_deg * kPi / 180;
+        const double azimuth = i * math::kGoldenAngle, tilt = tilt_deg * kPi / 180;
         const Vec3 away = normalized(Vec3{0.5 * std::cos(azimuth), 0.5 * std::sin(azimuth), 1});
         const Vec3 sideways = normalized(cross(away, {0.3, -0.5, 0.8}));
         all.push_back({(0.7 + 0.1 * i) * away, std::cos(tilt) * -away + std::sin(tilt) * sideways});

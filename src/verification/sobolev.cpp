@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "math/sampling.h"
 #include "verification/verification.h"
 
 namespace stilb::verification {
@@ -99,7 +100,7 @@ std::array<VerificationCase, 3> cases_between(const exact::ParallelPlanes& plane
         const double radius_m = kLargestRadius * i / (radii - 1);
         for (const exact::Plane plane : {exact::Plane::first, exact::Plane::second}) {
             (radius_m < kFarRadius ? near : far)
-                .readings.push_back({sobolev_point(planes, plane, radius_m, i * kGoldenAngle),
+                .readings.push_back({sobolev_point(planes, plane, radius_m, i * math::kGoldenAngle),
                                      problem.illuminance_lx(plane, radius_m)});
         }
     }

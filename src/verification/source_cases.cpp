@@ -10,6 +10,7 @@
 #include "exact/closed_rooms.h"
 #include "exact/configuration_factors.h"
 #include "io/mesh/mesh_file.h"
+#include "math/sampling.h"
 #include "verification/verification.h"
 
 namespace stilb::verification {
@@ -25,7 +26,7 @@ std::vector<MeasuringPoint> tilted_elements() {
     std::vector<MeasuringPoint> points;
     for (std::size_t i = 0; i < tilts_deg.size(); ++i) {
         const double polar = 1.2 * std::fmod(0.618 * static_cast<double>(i), 1.0);
-        const double azimuth = static_cast<double>(i) * kGoldenAngle;
+        const double azimuth = static_cast<double>(i) * math::kGoldenAngle;
         const Vec3 direction{std::sin(polar) * std::cos(azimuth), std::sin(polar) * std::sin(azimuth),
                              std::cos(polar)};
         const double tilt = tilts_deg[i] * kPi / 180;

@@ -8,6 +8,7 @@
 #include <iterator>
 #include <stdexcept>
 
+#include "math/sampling.h"
 #include "statistics/hypothesis.h"
 
 namespace stilb::verification {
@@ -115,7 +116,8 @@ std::vector<Vec3> spread_directions(int count) {
     for (int i = 0; i < count; ++i) {
         const double z = 1 - (2 * i + 1.0) / count;
         const double radius = std::sqrt(1 - z * z);
-        directions.push_back({radius * std::cos(i * kGoldenAngle), radius * std::sin(i * kGoldenAngle), z});
+        directions.push_back(
+            {radius * std::cos(i * math::kGoldenAngle), radius * std::sin(i * math::kGoldenAngle), z});
     }
     return directions;
 }

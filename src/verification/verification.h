@@ -100,9 +100,6 @@ std::vector<VerificationCase> environment_cases();
 
 // Building blocks of the verification cases' scenes.
 
-/// The rotation between consecutive directions that never lets them line up (golden angle).
-inline constexpr double kGoldenAngle = 2 * std::numbers::pi * (2 - std::numbers::phi);
-
 MaterialId add_material(Scene& scene, const Material& material);
 ObjectId add_object(Scene& scene, const Shape& shape, const Material& material);
 void add_area_light(Scene& scene, ObjectId object, double luminance_cd_m2);

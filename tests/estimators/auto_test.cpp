@@ -95,6 +95,35 @@ TEST(Auto, TakesNoGuessWhereReflectionsHaveALimit) {
     EXPECT_EQ(make_auto(limited)->batch_granularity(), make_balanced(limited)->batch_granularity());
 }
 
+/// A room with a lamp and an open side under the sky, beside a thing a kilometre away: light paths of the sky
+/// start around both, and hardly one finds the room.
+TEST(Auto, TakesNoLightPathsWhereTheyMissTheLight) {
+    Scene open_room;
+    const Box room{{0, 0, 0}, {3, 3, 3}};
+    for (const std::size_t axis : {0, 1, 2})
+        for (const Side side : {Side::low, Side::high})
+            if (axis != 1 || side == Side::high) add_object(open_room, wall(room, axis, side), diffuse(0.6));
+    add_object(open_room, Rectangle{{1000, 1000, 0}, {0.3, 0, 0}, {0, 0.3, 0}}, diffuse(0.6));
+    add_environment(open_room, Rgb::grey(1000));
+    add_point_light(open_room, {2, 2, 2.5}, Rgb::grey(100));
+    for (const int edge : {8, 9}) {  // 64 readings and more
+        const Choice choice(open_room, room_grid(edge));
+        EXPECT_NE(choice.granularity(make_auto), choice.granularity(make_balanced)) << edge;
+        Problem limited = choice.problem();
+        limited.max_reflections = 2;
+        EXPECT_EQ(make_auto(limited)->batch_granularity(), make_path(limited)->batch_granularity()) << edge;
+    }
+}
+
+/// Where nothing is reflected, methods agree but for rounding: that is no reason to take another one.
+TEST(Auto, TakesLightPathsWhereNothingIsRandom) {
+    Scene black;
+    add_object(black, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0));
+    for (int i = 0; i < 7; ++i) add_point_light(black, {0.3 + 0.37 * i, 1.1, 2.3}, Rgb::grey(100));
+    const Choice choice(std::move(black), room_grid(9));
+    EXPECT_EQ(choice.granularity(make_auto), choice.granularity(make_balanced));
+}
+
 TEST(Auto, TracesNoPathsWhereTheyFindNothing) {
     Scene dark;
     add_object(dark, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));

@@ -1,4 +1,4 @@
-// What lines of sight and guesses follow by mirrors, and what they leave to random paths:
+// The thresholds from which lines of sight and guesses leave light by mirrors to random paths:
 //
 //     line_of_sight.cpp   kMostFollowed 32           mirrors that a line of sight is followed by
 //                         kLeastTransmission 0.005   the share of its luminance that is followed

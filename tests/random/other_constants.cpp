@@ -6,7 +6,7 @@ std::span<const OtherConstants> other_constants() {
     static constexpr OtherConstants list[] = {
         {"src/base/half.cpp", "largest"},
         {"src/base/names.cpp", "most"},
-        {"src/base/rays.h", "kShare kShareOfRay"},
+        {"src/base/rays.h", "kShare"},
         {"src/base/rgb.h", "kBands"},
         {"src/base/vec.h", "kPi kInfinity"},
         {"src/checks/absorption.cpp", "kParticles kReflections"},
@@ -29,7 +29,7 @@ std::span<const OtherConstants> other_constants() {
          "kLocationsTried kMostTests"},
         {"src/checks/walks.cpp", "particles reflections"},
         {"src/estimators/auto.cpp",
-         "kReplicates kPilots kPlanningRayCost kPatchCost kWorthPlanning "
+         "rounding kReplicates kPilots kPlanningRayCost kPatchCost kWorthPlanning "
          "kPathPilotCost kLeastPaths kQuickPilotCost kLeastQuickPaths kClearly "
          "kSobolGain kComparedPaths kGuidedSamples kPilotBlock kPilotRows kPilotPasses "
          "kPilotReplicates kGuidedPassCost kGlossyPassCost"},
@@ -70,6 +70,7 @@ std::span<const OtherConstants> other_constants() {
          "most_points"},
         {"src/estimators/local/sub_points.cpp",
          "kDirectOfPixels kDirectDimensions most_cells parallel level"},
+        {"src/estimators/local/point_tile.cpp", "share"},
         {"src/estimators/patch_light/first_shot/factors.cpp", "kPixelsPerPatch kFaces kLeast kMost"},
         {"src/estimators/patch_light/first_shot/lights.cpp", "kRays"},
         {"src/estimators/patch_light/first_shot/lights.h", "kVertexSpacing kFewestOfOpening"},
@@ -145,7 +146,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/math/random.cpp", "kBits"},
         {"src/math/random.h", "kDerivation kScrambles kSobolDimensions"},
         {"src/math/random_lanes.cpp", "m0 m1"},
-        {"src/math/sampling.h", "kBelowOne"},
+        {"src/math/sampling.h", "kBelowOne kGoldenAngle"},
         {"src/math/spherical_harmonics.cpp", "part"},
         {"src/math/spherical_harmonics.h", "kMostHarmonicDegree"},
         {"src/math/zernike.h", "kMostDegree kMostCount"},
@@ -216,7 +217,7 @@ std::span<const OtherConstants> other_constants() {
          "kFromOutside kLeast_m kIlluminance_lx kMostRooms kSky_cd_m2"},
         {"src/sensors/glare.h", "least_sine"},
         {"src/sensors/goniometer.cpp", "rounding per_degree"},
-        {"src/sensors/place.cpp", "kParallel count kGoldenAngle"},
+        {"src/sensors/place.cpp", "kParallel count"},
         {"src/sensors/sensor.cpp", "all horizontal most"},
         {"src/sensors/sensor.h", "kSensorTypeNames"},
         {"src/statistics/bias.cpp", "kErrors"},

@@ -308,7 +308,7 @@ TEST(Areas, LeaveOutPointsRightBelowASurface) {
     EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 16U);
 }
 
-/// Of two rooms one has a lamp; the task area of the other is measured whole, and its readings are 0.
+/// One of two rooms has a lamp. The task area in the other room keeps all of its points, and they read 0.
 TEST(Areas, RoomsWithoutLampsAreDark) {
     Scene scene = room();
     add_object(scene, Box{{5, 0, 0}, {9, 4, 3}}, diffuse(0.5));

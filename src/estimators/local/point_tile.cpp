@@ -34,15 +34,13 @@ STILB_VECTORIZED bool connect_lanes(const SegmentOrigin& __restrict origin, std:
     return any != 0;
 }
 
-/// Segments are as inexact at their ends as they are long: they end above the surface by this share of their
-/// length at least. In scenes that are not large, receivers are lifted by more.
-constexpr auto kLiftOfLength = static_cast<float>(Lift::kShare / 9);
-
+/// Segments are as inexact at their ends as they are long, like those to lamps: they end above the surface by
+/// the same share of their length at least. In scenes that are not large, receivers are lifted enough.
 STILB_VECTORIZED void raise_ends(const PointTile& __restrict tile, RayPacket& __restrict segments) {
+    constexpr auto share = static_cast<float>(Lift::kShare * Lift::kShareOfRay);
     for (int i = 0; i < kPacketWidth; ++i) {
         const float x = segments.direction_x[i], y = segments.direction_y[i], z = segments.direction_z[i];
-        const float more_m =
-            std::max(kLiftOfLength * std::sqrt(x * x + y * y + z * z) - tile.lift_m[i], 0.0f);
+        const float more_m = std::max(share * std::sqrt(x * x + y * y + z * z) - tile.lift_m[i], 0.0f);
         segments.direction_x[i] = x + more_m * tile.up_x[i];
         segments.direction_y[i] = y + more_m * tile.up_y[i];
         segments.direction_z[i] = z + more_m * tile.up_z[i];

@@ -25,7 +25,7 @@ constexpr double kEdgeStep_m = 0.1, kBeside_m = 0.02, kAbove_m = 0.01;
 /// Heights at which a wall or a railing may bar an edge: skirtings and slits may be at its foot.
 constexpr std::array<double, 3> kBarred_m{kAbove_m, 0.1, 1};
 constexpr double kMostSteps = 1. / 3;
-/// What is narrower belongs to no room: the insides of walls, slits beside doors.
+/// Parts of a floor that are narrower belong to no room: they are inside of walls, or slits beside doors.
 constexpr double kNarrow_m = 0.5;
 
 /// All objects but lamps, as triangles.

@@ -19,13 +19,14 @@ constexpr double kMorePoints = 1.5;
 
 GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster)
     : guess_(guess), caster_(caster), all_(guess.patches().center) {
-    std::vector<double> light, luminances_cd_m2;
+    std::vector<double> luminances_cd_m2;
     for (const std::uint32_t side : guess.lit_sides()) {
         luminances_cd_m2.push_back(guess.mean_cd_m2(side).luminance());
-        light.push_back(luminances_cd_m2.back() *
-                        double{guess.patches().areas_m2[guess.patches().patch_of(side)]});
+        weights_.push_back(luminances_cd_m2.back() *
+                           double{guess.patches().areas_m2[guess.patches().patch_of(side)]});
     }
-    favours_ = transport::emission_favours(light, luminances_cd_m2);
+    const std::vector<double> favours = transport::emission_favours(weights_, luminances_cd_m2);
+    for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] *= favours[i];
     for (std::size_t i = 0; i < guess.lit_sides().size(); ++i) add(i, all_);
 }
 
@@ -37,8 +38,7 @@ void GuessPoints::add(std::size_t i, KernelChoice& sides) const {
     double radius_m = 0;
     for (const std::uint32_t corner : patches.corners[patch])
         radius_m = std::max(radius_m, length(patches.center + Vec3(patches.vertices[corner]) - middle));
-    sides.add(middle, patches.normal_of(side),
-              favours_[i] * guess_.mean_cd_m2(side).luminance() * double{patches.areas_m2[patch]}, radius_m);
+    sides.add(middle, patches.normal_of(side), weights_[i], radius_m);
 }
 
 double GuessPoints::k_per_m2(std::size_t count) const {

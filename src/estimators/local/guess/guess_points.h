@@ -53,9 +53,9 @@ class GuessPoints {
 
     const LightGuess& guess_;
     const rays::RayCaster& caster_;
-    /// By lit sides: those of a room with weak lamps are chosen although walls of other rooms are brighter,
-    /// which may be hidden.
-    std::vector<double> favours_;
+    /// By lit sides: luminance times area; more in a room with weak lamps, as brighter walls of other rooms
+    /// may be hidden.
+    std::vector<double> weights_;
     KernelChoice all_;  ///< the guess's lit sides
 };
 
