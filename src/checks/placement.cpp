@@ -100,11 +100,13 @@ std::optional<std::string> fault_of(const Sensor& sensor, const std::map<Enclosu
     if (most == nullptr) return std::nullopt;
     const std::string which =
         points == 1 ? "it lies" : fmt::format("{} of {} points lie", dark_points, points);
-    const std::string_view it = points == 1 ? "it" : "them";
+    const std::string_view it = points == 1 ? "it" : "them", unit = sensor.quantity().unit;
+    // Ratings of glare in the dark are what their formulas give.
+    const std::string reading =
+        unit.empty() ? "" : fmt::format(", {} 0 {}", points == 1 ? "it reads" : "they read", unit);
     return fmt::format(
-        "sensor \"{}\": {} {}: no light arrives, {} 0 {}. Move {} to where light is, or a light to {}.",
-        sensor.name, which, whereabouts(*most, lit, scene), points == 1 ? "it reads" : "they read",
-        sensor.quantity().unit, it, it);
+        "sensor \"{}\": {} {}: no light arrives{}. Move {} to where light is, or a light to {}.", sensor.name,
+        which, whereabouts(*most, lit, scene), reading, it, it);
 }
 
 // Lights whose light gets to no sensor.

@@ -34,9 +34,6 @@ namespace {
 constexpr double kScreeningShare = 0.1;  ///< of the total error rate
 constexpr double kSideShare = 0.45;      ///< of the total error rate, for each end of the interval
 
-constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr Estimate kUndefined{kNone, kNone, kNone, kNone};
-
 enum class Extreme { minimum, maximum };
 
 double sign_of(Extreme extreme) { return extreme == Extreme::minimum ? 1 : -1; }
@@ -115,7 +112,7 @@ class ExtremeFinder {
 Estimate estimate_ratio(const ReplicateTable& table, std::span<const double> means, double denominator,
                         std::span<const double> residuals, const ExtremeFinder& smallest,
                         std::span<const double> rare_light) {
-    if (!(denominator > 0)) return kUndefined;
+    if (!(denominator > 0)) return kUndefinedEstimate;
     std::vector<double> ratios(means.begin(), means.end());
     for (double& ratio : ratios) ratio /= denominator;
     PooledErrors<double> errors = residual_errors(table, means, ratios, residuals);
@@ -217,7 +214,7 @@ std::vector<double> residuals_of(const ReplicateTable& table, Statistic statisti
     for (std::size_t r = 0; r < residuals.size(); ++r) {
         residuals[r] = denominator > 0
                            ? (residuals[r] - means[least] / denominator * of_denominator[r]) / denominator
-                           : kNone;
+                           : kUndefined;
     }
     return residuals;
 }

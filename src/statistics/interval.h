@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -20,6 +21,10 @@ struct Estimate {
 
     bool operator==(const Estimate&) const = default;
 };
+/// Of a quantity that has no value, such as a ratio to 0.
+inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
+inline constexpr Estimate kUndefinedEstimate{kUndefined, kUndefined, kUndefined, kUndefined};
+
 /// Half the width of the interval.
 inline double half_width(const Estimate& estimate) { return (estimate.upper - estimate.lower) / 2; }
 

@@ -122,10 +122,9 @@ Draft reduced(Draft draft, const Comparison& comparison, std::uint64_t work) {
             if (step == 1) break;
         }
     }
-    std::erase_if(draft.materials, [&](const Part& material) {
-        return std::ranges::none_of(
-            draft.objects, [&](const Part& object) { return object.text("material") == material.name; });
-    });
+    const std::string all = draft.text();
+    std::erase_if(draft.materials,
+                  [&](const Part& material) { return !contains(all, ('"' + material.name + '"').c_str()); });
     return draft;
 }
 
@@ -133,7 +132,8 @@ std::vector<Setting> settings_of(const RandomScene& random, const Options& optio
     std::vector<Setting> settings;
     const bool has_luminance = std::ranges::any_of(random.draft.sensors, [](const Part& sensor) {
         const std::string type = sensor.text("type");
-        return type == "luminance" || type == "goniometer" || type == "ugr" || type == "camera";
+        return type == "luminance" || type == "goniometer" || type == "ugr" || type == "dgp" ||
+               type == "camera";
     });
     for (const char* const method :
          {"auto", "light-paths", "guided", has_luminance ? "double-local" : "local"})

@@ -87,7 +87,7 @@ LampLight add_lamp(Draft& draft, Draw& draw, std::size_t kind, const Vec3& at, d
                 return exact::illuminance_by_point_lx(to, at, flux / (4 * kPi));
             };
         case 1: {
-            const Vec3 corner = at - Vec3{half, half, 0}, u{0, along_y, 0}, v{along_x, 0, 0};
+            const Vec3 corner = at - Vec3{half, 0.5 * along_y, 0}, u{0, along_y, 0}, v{along_x, 0, 0};
             add_area(draft.add_object("rectangle", draft.add_material("black").name)
                          .set("corner", vector(corner))
                          .set("edge_u", vector(u))

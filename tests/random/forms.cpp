@@ -61,6 +61,10 @@ void halve_flux(Part& light) { light.set("flux", number(0.5 * light.number("flux
 
 /// Points in two of half the flux in one place, rectangles and openings in two halves side by side.
 Forms with_lamps_halved(const Draft& draft, Draw&) {
+    // Glare counts lamps, and leaves out small ones.
+    for (const Part& sensor : draft.sensors) {
+        if (sensor.text("type") == "ugr" || sensor.text("type") == "dgp") return std::nullopt;
+    }
     OtherForm other{draft};
     other.draft.lights.clear();
     bool is_other = false;
@@ -69,7 +73,7 @@ Forms with_lamps_halved(const Draft& draft, Draw&) {
         second.name = other.draft.new_name("l");
         const std::string type = whole.text("type");
         const bool is_point = type == "point" || (type == "photometry" && whole.text("opening") == "point");
-        const bool hangs = type == "photometry" && !is_point && !whole.find("aim");
+        const bool hangs = type == "photometry" && !is_point && !whole.find("aim") && !whole.find("geometry");
         const Part* const object = draft.object(whole.text("object"));
         const bool is_rectangle = type == "area" && object->text("shape") == "rectangle";
         if (!whole.find("flux") || !(is_point || is_rectangle || (hangs && whole.find("position")))) {
@@ -181,7 +185,8 @@ std::vector<Vec3> places_of(const Draft& draft) {
     std::vector<Vec3> places;
     for (const auto* const parts : {&draft.objects, &draft.lights, &draft.sensors}) {
         for (const Part& part : *parts) {
-            for (const char* const key : {"position", "corner", "center", "min", "max", "point"}) {
+            for (const char* const key :
+                 {"position", "corner", "center", "min", "max", "point", "translate"}) {
                 if (part.find(key)) places.push_back(part.vector(key));
             }
             for (const char* const key : {"positions", "vertices"}) {

@@ -14,6 +14,9 @@ RandomScene generate(std::uint64_t seed, std::uint64_t scene) {
     if (draw.chance(0.1)) fill_up(draft, draw.one_of<std::size_t>({95, 96, 97}), site);
     add_sensors(draft, draw, site);
     if (draw.chance(0.15)) draft.bounces = draw.one_of({0, 1, 2, 3});
+    // By draws of its own, so that what is added here changes nothing else of a scene.
+    Draw more(~seed, scene);
+    add_extras(draft, more, site, random.kind);
     return random;
 }
 

@@ -57,6 +57,8 @@ Site add_room(Draft& draft, Draw& draw, std::string& kind);
 void add_things(Draft& draft, Draw& draw, const Site& site);
 void add_lamps(Draft& draft, Draw& draw, const Site& site, std::string& kind);
 void add_sensors(Draft& draft, Draw& draw, const Site& site);
+/// Files of meshes, bodies and skies, colours, other projections, sensors of rooms and of glare by daylight.
+void add_extras(Draft& draft, Draw& draw, const Site& site, std::string& kind);
 /// Fills a scene up to so many triangles, where it has fewer, by small ones that lie together.
 void fill_up(Draft& draft, std::size_t triangles, const Site& site);
 /// A scene whose readings are known.
@@ -67,6 +69,10 @@ RandomScene generate_exact(Draw& draw);
 inline constexpr const char* kBeamFile = "beam.ies";
 inline constexpr const char* kCosineFile = "cosine.ies";
 inline constexpr const char* kWasherFile = "washer.ies";
+/// A body of 20 triangles, the body of a luminaire, and a panorama.
+inline constexpr const char* kThingFiles[] = {"thing.obj", "thing.ply"};
+inline constexpr const char* kBodyFile = "body.obj";
+inline constexpr const char* kSkyFile = "sky.exr";
 inline constexpr double kCosineLength_m = 0.1, kCosineWidth_m = 0.3;
 
 }  // namespace stilb::random

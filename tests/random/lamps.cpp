@@ -1,11 +1,7 @@
 // Lamps of random scenes: from one to 200, of one kind or of all.
 #include <fmt/format.h>
-#include <unistd.h>
-
-#include <fstream>
 
 #include "random/generator.h"
-#include "random/photometry.h"
 
 namespace stilb::random {
 namespace {
@@ -138,32 +134,7 @@ void add_twin(Draft& draft) {
     draft.lights.push_back(std::move(light));
 }
 
-void write_photometry(const std::filesystem::path& path, std::string_view name, std::string_view opening,
-                      int planes, double (*intensity_cd)(double gamma_deg, double c_deg)) {
-    constexpr int kGammas = 91;
-    std::string text = fmt::format("IESNA:LM-63-2002\n[TEST] {}\nTILT=NONE\n1 -1 1 {} {} 1 2 {} 0\n1 1 20\n",
-                                   name, kGammas, planes, opening);
-    const double step = planes > 1 ? 360. / (planes - 1) : 0;
-    for (int g = 0; g < kGammas; ++g) text += fmt::format("{} ", g);
-    text += "\n";
-    for (int c = 0; c < planes; ++c) text += fmt::format("{} ", c * step);
-    for (int c = 0; c < planes; ++c) {
-        text += "\n";
-        for (int g = 0; g < kGammas; ++g) text += fmt::format("{:.6f} ", intensity_cd(g, c * step));
-    }
-    // Another run may read the file now.
-    const std::filesystem::path unfinished = fmt::format("{}.{}", path.string(), getpid());
-    std::ofstream(unfinished) << text << "\n";
-    std::filesystem::rename(unfinished, path);
-}
-
 }  // namespace
-
-void write_files(const std::filesystem::path& folder) {
-    write_photometry(folder / kCosineFile, "cosine", "0.3 0.1", 1, cosine_cd);
-    write_photometry(folder / kBeamFile, "beam", "0 0", 1, beam_cd);
-    write_photometry(folder / kWasherFile, "washer", "0.3 0.1", 25, washer_cd);
-}
 
 void add_lamps(Draft& draft, Draw& draw, const Site& site, std::string& kind) {
     const bool has_sky = !draft.lights.empty() && draft.lights[0].text("type") == "environment";

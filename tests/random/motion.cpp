@@ -11,12 +11,13 @@ namespace {
 
 using namespace std::string_view_literals;
 
-constexpr std::array kPoints{"position"sv, "corner"sv, "center"sv, "min"sv,
-                             "max"sv,      "target"sv, "point"sv,  "origin"sv};
+constexpr std::array kPoints{"position"sv, "corner"sv, "center"sv, "min"sv,  "max"sv,
+                             "target"sv,   "point"sv,  "origin"sv, "room"sv, "translate"sv};
 constexpr std::array kPointLists{"positions"sv, "points"sv, "targets"sv, "vertices"sv, "corners"sv};
 constexpr std::array kVectors{"edge_u"sv, "edge_v"sv, "step_u"sv, "step_v"sv};
 constexpr std::array kDirections{"normal"sv, "direction"sv, "aim"sv, "up"sv};
-constexpr std::array kLengths{"radius"sv, "opening"sv, "coefficients"sv, "spacing"sv};
+constexpr std::array kLengths{"radius"sv, "opening"sv, "coefficients"sv, "spacing"sv,
+                              "scale"sv,  "height"sv,  "margin"sv};
 constexpr std::array kBySquare{"flux"sv, "intensity"sv};
 
 bool holds(const auto& keys, std::string_view key) { return std::ranges::find(keys, key) != keys.end(); }
@@ -60,8 +61,11 @@ void move_object(Part& object, const Motion& motion) {
         object.set("max", vector({std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}));
         return;
     }
-    if (shape == "harmonics" && motion.turn_deg != 0)
-        object.set("rotate", {TomlArray{number(0), number(0), number(1), number(motion.turn_deg)}});
+    if (motion.turn_deg != 0 && (shape == "harmonics" || shape == "mesh")) {
+        const TomlValue* const own = object.find("rotate");
+        const double before = own ? as_number(std::get<TomlArray>(own->content)[3]) : 0;
+        object.set("rotate", {TomlArray{number(0), number(0), number(1), number(before + motion.turn_deg)}});
+    }
     move_keys(object.keys, motion);
     if (!motion.is_mirrored) return;
     // The front stays in front.
@@ -87,6 +91,8 @@ void move_light(Part& light, const Motion& motion) {
         const bool is_up = light.find("aim") && normalized(light.vector("aim")).z > 1 - 1e-12;
         move_azimuth(light, "spin", is_up, motion, 0);
     }
+    if (light.text("type") == "environment" && light.find("file"))
+        move_azimuth(light, "rotation", false, motion, 0);
     move_keys(light.keys, motion);
 }
 
@@ -119,12 +125,15 @@ bool depends_on_vertical(const Draft& draft) {
     return has_type(draft.lights, "type", "photometry") || has_type(draft.sensors, "type", "cylindrical") ||
            has_type(draft.sensors, "type", "semicylindrical") || has_type(draft.sensors, "type", "ugr") ||
            has_type(draft.sensors, "type", "area") || has_type(draft.sensors, "type", "camera") ||
-           has_type(draft.sensors, "type", "goniometer") || has_type(draft.materials, "type", "ward") ||
+           has_type(draft.sensors, "type", "goniometer") || has_type(draft.sensors, "type", "dgp") ||
+           has_type(draft.sensors, "type", "plane") || has_type(draft.lights, "file", kSkyFile) ||
+           has_type(draft.objects, "shape", "mesh") || has_type(draft.materials, "type", "ward") ||
            has_type(draft.objects, "shape", "box") || has_type(draft.objects, "shape", "harmonics");
 }
 
 bool depends_on_hand(const Draft& draft) {
-    return has_type(draft.lights, "file", kWasherFile) || has_type(draft.objects, "shape", "harmonics");
+    return has_type(draft.lights, "file", kWasherFile) || has_type(draft.lights, "file", kSkyFile) ||
+           has_type(draft.objects, "shape", "harmonics") || has_type(draft.objects, "shape", "mesh");
 }
 
 Draft in_motion(Draft draft, const Motion& motion) {

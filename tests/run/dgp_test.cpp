@@ -103,6 +103,40 @@ TEST(DaylightGlareProbability, SaysWhatItIsNotMadeFor) {
     EXPECT_NE(result.warnings[1].find("is missing from DGP"), std::string::npos) << result.warnings[1];
 }
 
+/// Where there is neither light nor glare, the constant of the formula is left.
+TEST(DaylightGlareProbability, InTheDarkIsTheConstant) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, Black{});
+    add_object(scene, Box{{5, 0, 0}, {6, 1, 2}}, Black{});
+    add_area_light(scene, Sphere{{2, 1, 2}, 0.1}, Rgb::grey(5000));
+    const Dgp eyes{{{{5.5, 0.5, 1}, {1, 0, 0}}, {{2, 3, 1.5}, {0, -1, 0}}}};
+    const run::RunResult result = rated(scene, eyes);
+    const std::vector<Reading>& readings = result.sensors.at(0).readings;
+    EXPECT_EQ(readings.at(0).estimate.value, 0.16);
+    EXPECT_EQ(readings.at(0).estimate.standard_error, 0);
+    EXPECT_GT(readings.at(1).estimate.value, 0.2);
+    EXPECT_EQ(result.sensors[0].summary.minimum.value, 0.16);
+}
+
+/// Where few of the samples find the light of an eye, replicates have none of it, and others much.
+TEST(DaylightGlareProbability, HasAValueWhereReplicatesSeeNoLight) {
+    Scene scene;
+    add_environment(scene, Rgb::grey(1000));
+    const auto wall = [&](double x0, double x1) {
+        add_object(scene, Rectangle{{x0, 2, -50}, {x1 - x0, 0, 0}, {0, 0, 100}}, Black{});
+    };
+    wall(-50, -0.02);
+    wall(0.02, 50);
+    int without_light = 0;
+    for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+        const run::RunResult result = rated(scene, Dgp{{kEye}, 500}, seed, "path", 1024);
+        const statistics::Estimate& rating = result.sensors.at(0).readings.at(0).estimate;
+        EXPECT_TRUE(std::isfinite(rating.lower + rating.upper)) << rating.lower << " " << rating.upper;
+        without_light += rating.standard_error > 0;
+    }
+    EXPECT_GT(without_light, 0);
+}
+
 TEST(DaylightGlareProbability, IsTheSameForAnyNumberOfThreads) {
     RunOptions options;
     options.paths = 1 << 13;

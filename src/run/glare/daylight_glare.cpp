@@ -10,32 +10,46 @@ namespace stilb::run {
 namespace {
 
 using statistics::Estimate;
+using statistics::kUndefinedEstimate;
 
 constexpr double kOfIlluminance = 5.87e-5, kOfGlare = 0.0918, kOffset = 0.16, kExponent = 1.87;
 /// A place brighter than so many times the mean of the view is a source of glare, by default.
 constexpr double kTimesMean = 5;
 
-double dgp(double illuminance_lx, double glare) {
-    return kOfIlluminance * illuminance_lx +
-           kOfGlare * std::log10(1 + glare / std::pow(illuminance_lx, kExponent)) + kOffset;
-}
+/// The probability, and how it changes with its two parts, at their means.
+struct DgpAtMeans {
+    /// `glare`: the sum over all sources. Without any, the probability has no term of them, also in the dark.
+    DgpAtMeans(double illuminance, double glare) : illuminance_lx(illuminance), glare_sum(glare) {
+        const double scale = std::pow(std::max(0.0, illuminance_lx), kExponent);
+        if (glare_sum > 0) {
+            per_glare = kOfGlare / std::numbers::ln10 / (scale + glare_sum);
+            per_lx -= per_glare * kExponent * glare_sum / illuminance_lx;
+            value += kOfGlare * std::log10(1 + glare_sum / scale);
+        }
+        value += kOfIlluminance * illuminance_lx;
+    }
+
+    /// Whether both are seen: a source is one of light.
+    bool is_defined() const { return illuminance_lx > 0 || glare_sum <= 0; }
+    /// To first order.
+    double near(double illuminance, double glare) const {
+        return value + per_lx * (illuminance - illuminance_lx) + per_glare * (glare - glare_sum);
+    }
+
+    double illuminance_lx, glare_sum;
+    double value = kOffset, per_lx = kOfIlluminance, per_glare = 0;
+};
 
 /// With the errors of both, to first order, in quadrature.
-Estimate dgp_estimate(const Estimate& illuminance, const Estimate& glare) {
-    constexpr double none = std::numeric_limits<double>::quiet_NaN();
-    if (!(illuminance.value > 0)) return {none, none, none, none};
-    const double ratio = glare.value / std::pow(illuminance.value, kExponent);
-    const double per_glare =
-        kOfGlare / std::numbers::ln10 / (1 + ratio) / std::pow(illuminance.value, kExponent);
-    const double per_lx = kOfIlluminance - per_glare * kExponent * glare.value / illuminance.value;
+Estimate dgp_estimate(const DgpAtMeans& dgp, const Estimate& illuminance, const Estimate& glare) {
     const double less_lx = illuminance.value - illuminance.lower,
                  more_lx = illuminance.upper - illuminance.value;
-    const double value = dgp(illuminance.value, glare.value);
-    return {value, std::hypot(per_lx * illuminance.standard_error, per_glare * glare.standard_error),
-            value - std::hypot(per_lx * (per_lx > 0 ? less_lx : more_lx),
-                               per_glare * (glare.value - glare.lower)),
-            value + std::hypot(per_lx * (per_lx > 0 ? more_lx : less_lx),
-                               per_glare * (glare.upper - glare.value))};
+    return {dgp.value,
+            std::hypot(dgp.per_lx * illuminance.standard_error, dgp.per_glare * glare.standard_error),
+            dgp.value - std::hypot(dgp.per_lx * (dgp.per_lx > 0 ? less_lx : more_lx),
+                                   dgp.per_glare * (glare.value - glare.lower)),
+            dgp.value + std::hypot(dgp.per_lx * (dgp.per_lx > 0 ? more_lx : less_lx),
+                                   dgp.per_glare * (glare.upper - glare.value))};
 }
 
 using OfReplicates = std::array<double, kGlareReplicates>;
@@ -76,18 +90,23 @@ DaylightView find_daylight_glare(const MeasuringPoint& eye, std::optional<double
 void rate_daylight(std::span<const DaylightView> views, double confidence, SensorEstimates& estimates) {
     Campaign::Estimates& all = estimates.readings;
     const std::size_t readings = views.size(), replicates = all.replicate_means.size() / readings;
+    bool is_defined = true;
     for (std::size_t j = 0; j < readings; ++j) {
         const OfReplicates sums = sums_of(views[j]);
         const Estimate sum = statistics::estimate_from_replicates(sums, confidence);
-        all.readings[j] = dgp_estimate(all.readings[j], sum);
+        const DgpAtMeans dgp(all.readings[j].value, sum.value);
+        is_defined = is_defined && dgp.is_defined();
+        all.readings[j] = dgp.is_defined() ? dgp_estimate(dgp, all.readings[j], sum) : kUndefinedEstimate;
         const OfReplicates widened = widened_to(replicates, sums, sum.value);
         for (std::size_t r = 0; r < replicates; ++r) {
             double& value = all.replicate_means[r * readings + j];
-            value = dgp(value, widened[r % kGlareReplicates]);
+            value = dgp.near(value, widened[r % kGlareReplicates]);
         }
     }
     all.bias.reset();  // the intervals contain it
-    estimates.summary = statistics::summarize_grid({all.replicate_means, readings}, confidence);
+    constexpr Estimate none = kUndefinedEstimate;
+    estimates.summary = is_defined ? statistics::summarize_grid({all.replicate_means, readings}, confidence)
+                                   : statistics::GridSummary{none, none, none, none, none};
 }
 
 }  // namespace stilb::run

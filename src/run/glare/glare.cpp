@@ -19,12 +19,12 @@ namespace stilb::run {
 namespace {
 
 using statistics::Estimate;
+using statistics::kUndefined;
+using statistics::kUndefinedEstimate;
 using transport::Glare;
 
 /// Sources with a smaller share of the glare in a view need no warning.
 constexpr double kLeastShareOfGlare = 0.01;
-constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
-constexpr Estimate kUndefinedEstimate{kUndefined, kUndefined, kUndefined, kUndefined};
 
 /// The derivative of a rating by q is this over -q.
 constexpr double kPerRelative = 8 / std::numbers::ln10;
