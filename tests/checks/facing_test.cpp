@@ -74,6 +74,24 @@ TEST(Facing, ALuminaireAboveAFalseCeiling) {
             "which stops almost all of their light. Move them to the other side, or turn their aim round."});
 }
 
+/// A luminaire this far above a false ceiling.
+TEST(Facing, GapsOfTenCentimetresAreNarrow) {
+    const auto warnings_at = [](double gap_m) {
+        Scene scene = furnished_room();
+        scene.solids.push_back(
+            {.file = "panel.ldt",
+             .luminaire = "",
+             .solid = PhotometricSolid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}})});
+        const lights::LuminaireFrame frame = lights::aim_luminaire(kDown, 0);
+        scene.lights.push_back(
+            {"panel", Luminaire{{2, 1.5, 2}, SolidId{0}, frame.c0, frame.c90, frame.nadir, Rgb::grey(1)}});
+        add_object(scene, Rectangle{{0, 0, 2 - gap_m}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
+        return warnings_of(scene).size();
+    };
+    EXPECT_EQ(warnings_at(0.0999), 1u);
+    EXPECT_EQ(warnings_at(0.1001), 0u);
+}
+
 TEST(Facing, AGlassCoverStopsNoLight) {
     Scene scene = room_with_panel(2.6, true);
     add_object(scene, Rectangle{{2, 0.5, 2.61}, {1.5, 0, 0}, {0, 1.5, 0}}, ThinDielectric{1.52, 1});
@@ -86,6 +104,11 @@ TEST(Facing, AGridThatFacesTheTableBelowIt) {
     EXPECT_NE(warnings[0].find("sensor \"desk\": its normal points to object \"1\", 1 cm away"),
               std::string::npos)
         << warnings[0];
+}
+
+TEST(Facing, WhatIsTwoCentimetresInFrontHidesTheRest) {
+    EXPECT_EQ(warnings_of(furnished_room(), {grid_at(0.7599, kDown)}).size(), 1u);
+    EXPECT_EQ(warnings_of(furnished_room(), {grid_at(0.7601, kDown)}).size(), 0u);
 }
 
 TEST(Facing, AGridOnTheTableThatFacesDown) {
@@ -128,6 +151,8 @@ TEST(Units, ARoomInMillimetresOrCentimetres) {
 TEST(Units, HallsGroundsAndTerrainsAreInMetres) {
     EXPECT_EQ(unit_warnings_of(inward({{0, 0, 0}, {4, 3, 2.5}})), Texts{});
     EXPECT_EQ(unit_warnings_of(inward({{0, 0, 0}, {400, 300, 60}})), Texts{});
+    EXPECT_EQ(unit_warnings_of(inward({{0, 0, 0}, {400, 300, 199.9}})), Texts{});
+    EXPECT_EQ(unit_warnings_of(inward({{0, 0, 0}, {400, 300, 200}})).size(), 1u);
     EXPECT_EQ(unit_warnings_of(triangulated(Rectangle{{0, 0, 0}, {1000, 0, 0}, {0, 1000, 0}})), Texts{});
     EXPECT_EQ(unit_warnings_of(Mesh{{{0, 0, 0}, {5000, 0, 900}, {5000, 5000, 300}, {0, 5000, 1200}},
                                     {{0, 1, 2}, {0, 2, 3}}}),

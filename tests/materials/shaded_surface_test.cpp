@@ -71,6 +71,22 @@ TEST(ShadedSurface, IsTheMaterialItselfWhereNormalsAreTheSame) {
     }
 }
 
+/// Where the cosines' ratio is a little less than two, and a little more.
+TEST(ShadedSurface, IsTwiceAsBrightAtMost) {
+    const Material material = Diffuse{Rgb::grey(0.6)};
+    const ShadedSurface surface = bent(material, 40);
+    const Vec3 normal = surface.shading().w, towards = normalized({normal.x, normal.y, 0});
+    const auto factor_at = [&](double ratio) {
+        // sin(40) cos(h) + cos(40) sin(h) = ratio sin(h), for light at height h on the side of the normal.
+        const double height = std::atan(std::sin(40 * kPi / 180) / (ratio - std::cos(40 * kPi / 180)));
+        const Vec3 in = std::cos(height) * towards + Vec3{0, 0, std::sin(height)};
+        return surface.brdf_per_sr(in, {0, 0, 1})[0] * kPi / 0.6;
+    };
+    EXPECT_NEAR(factor_at(1.99), 1.99, 1e-9);
+    EXPECT_NEAR(factor_at(2), 2, 1e-9);
+    EXPECT_NEAR(factor_at(2.01), 2, 1e-9);
+}
+
 TEST(ShadedSurface, ShowsAMattSurfaceAsTheShadingNormalWould) {
     const Material material = Diffuse{Rgb::grey(0.6)};
     const ShadedSurface surface = bent(material, 30);

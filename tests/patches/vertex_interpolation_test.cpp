@@ -111,6 +111,19 @@ TEST(VertexInterpolation, IsOfSecondOrderOnRoundSurfaces) {
     EXPECT_GT(error(0.1) / error(0.025), 10);
 }
 
+/// Two triangles with a common edge.
+TEST(SmoothVertices, AreDividedBeyondFortyDegrees) {
+    const std::array<Triangle, 2> triangles{{{0, 1, 2}, {1, 0, 3}}};
+    const std::array<MaterialId, 2> materials{};
+    const auto count_at = [&](double angle_deg) {
+        const double angle = angle_deg * kPi / 180;
+        const std::array<Vec3, 2> normals{{{0, 0, 1}, {0, std::sin(angle), std::cos(angle)}}};
+        return divide_at_creases(triangles, normals, materials).original.size();
+    };
+    EXPECT_EQ(count_at(39.99), 4u);
+    EXPECT_EQ(count_at(40.01), 6u);
+}
+
 TEST(VertexInterpolation, StaysBetweenThePatchesAround) {
     const auto step = [](const Vec3& p) { return p.x < 0.43 ? 0.0 : 1.0; };
     const Field field(scene_of(uneven_square()), 0.07, step);

@@ -235,7 +235,7 @@ std::span<const Threshold> thresholds() {
         {"roulette_threshold", "src/transport/weights.h", "0.125",
          "paths that gather light: they survive, or roulette", "all scenes with reflections"},
         {"kMostBrightening", "src/materials/shaded_surface.h", "2", "factors of bent normals",
-         "not one by one; nearest: tests/materials/shaded_surface_test.cpp"},
+         "tests/materials/shaded_surface_test.cpp: 1.99, 2 and 2.01"},
         {"kLeastDensity_per_sr", "src/transport/sharp_light.cpp", "1", "sharp reflections: named, or not",
          "not one by one; nearest: tests/transport/sharp_light_test.cpp"},
         {"kLeastShare", "src/transport/sharp_light.cpp", "0.005", "light of sharp reflections: named, or not",
@@ -251,7 +251,7 @@ std::span<const Threshold> thresholds() {
          "tests/lights/colour_temperature_test.cpp: steps of 10 K"},
         {"kCreaseAngle_deg", "src/patches/vertex_interpolation.h", "40",
          "edges between patches: light is continuous, or not",
-         "not one by one; nearest: tests/patches/vertex_interpolation_test.cpp"},
+         "tests/patches/vertex_interpolation_test.cpp: 39.99 and 40.01"},
         {"kShareOfBody", "src/scene/glass_bodies.cpp", "0.5", "bodies: of glass, or not", "not one by one"},
         // Statistics, and what rules leave out.
         {"kDarkShare", "src/statistics/interval.h", "0.01",
@@ -276,7 +276,7 @@ std::span<const Threshold> thresholds() {
          "sources of UGR: in the table of positions, or outside",
          "tests/transport/glare_test.cpp: a millionth below, at, and above"},
         {"kLeastDaylight_lx", "src/run/glare/daylight_glare.h", "380", "DGP: with a warning, or not",
-         "not one by one; nearest: tests/run/dgp_test.cpp"},
+         "tests/run/dgp_test.cpp: 379.9 and 380.1"},
         // Warnings.
         {"kBright", "src/checks/absorption.cpp", "0.995", "reflectances: nothing to look at, or a look",
          "tests/checks/absorption_test.cpp: 0.9949, 0.995 and 0.9951"},
@@ -287,13 +287,13 @@ std::span<const Threshold> thresholds() {
          "tests/checks/placement_test.cpp: 0.2 of the radius beyond the wall, and a little less and more"},
         {"kLargestShare", "src/checks/precision.cpp", "1. / 1000",
          "offsets beside distances: a warning, or none",
-         "not one by one; nearest: tests/checks/precision_test.cpp"},
+         "tests/checks/precision_test.cpp: 990 and 1010 offsets"},
         {"kNarrowGap_m", "src/checks/facing.cpp", "0.1", "lamps that face a surface: a warning, or none",
-         "not one by one; nearest: tests/checks/facing_test.cpp"},
+         "tests/checks/facing_test.cpp: 9.99 and 10.01 cm"},
         {"kHiding_m", "src/checks/facing.cpp", "0.02", "sensors behind a face: a warning, or none",
-         "not one by one; nearest: tests/checks/facing_test.cpp"},
+         "tests/checks/facing_test.cpp: 1.99 and 2.01 cm"},
         {"kHugeRoom_m", "src/checks/units.cpp", "200", "rooms: a warning of units, or none",
-         "not one by one; nearest: tests/checks/facing_test.cpp"},
+         "tests/checks/facing_test.cpp: 199.9 and 200"},
     };
     return list;
 }

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
 
 #include "run/run.h"
 #include "statistics/hypothesis.h"
@@ -101,6 +102,17 @@ TEST(DaylightGlareProbability, SaysWhatItIsNotMadeFor) {
     EXPECT_NE(result.warnings[0].find("is below 380 lx in 1 of 1 views"), std::string::npos)
         << result.warnings[0];
     EXPECT_NE(result.warnings[1].find("is missing from DGP"), std::string::npos) << result.warnings[1];
+}
+
+/// 380 lx under an even sky, which is no source.
+TEST(DaylightGlareProbability, WarnsOfEyesWithLittleLight) {
+    const auto warnings_at = [](double illuminance_lx) {
+        Scene scene;
+        add_environment(scene, Rgb::grey(illuminance_lx / std::numbers::pi));
+        return rated(scene, Dgp{{kEye}}, 1, "path", 64).warnings.size();
+    };
+    EXPECT_EQ(warnings_at(379.9), 1u);
+    EXPECT_EQ(warnings_at(380.1), 0u);
 }
 
 /// Where there is neither light nor glare, the constant of the formula is left.
