@@ -72,7 +72,7 @@ inline constexpr const char* kWasherFile = "washer.ies";
 /// A body of 20 triangles, the body of a luminaire, and a panorama.
 inline constexpr const char* kThingFiles[] = {"thing.obj", "thing.ply"};
 inline constexpr const char* kBodyFile = "body.obj";
-inline constexpr const char* kSkyFile = "sky.exr";
+inline constexpr const char* kSkyFile = "sky.hdr";
 inline constexpr double kCosineLength_m = 0.1, kCosineWidth_m = 0.3;
 
 }  // namespace stilb::random

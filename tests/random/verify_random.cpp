@@ -30,8 +30,9 @@
 namespace stilb::random {
 namespace {
 
-/// Processor time after which a scene counts as endless.
+/// Processor time after which a scene counts as endless; one that waits for ever is stopped, too.
 constexpr rlim_t kMostSeconds = 300;
+constexpr unsigned kMostSecondsOfClock = 3600;
 /// Larger scenes are not printed: `--scene K --print` does it.
 constexpr std::size_t kMostPrinted = 80;
 
@@ -95,6 +96,7 @@ pid_t start(Job& job, const Options& options) {
     if (process != 0) return process;
     const rlimit limit{kMostSeconds, kMostSeconds};
     setrlimit(RLIMIT_CPU, &limit);
+    alarm(kMostSecondsOfClock);
     dup2(fileno(job.report), STDOUT_FILENO);
     const Counts counts = check_scene(job.scene, options);
     std::fflush(stdout);
@@ -116,6 +118,9 @@ double finish(const Job& job, int status, Counts& sums) {
         const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
         if (signal == SIGXCPU || signal == SIGKILL)
             fmt::print("scene {}: it does not end: stopped after {} s\n", job.scene, kMostSeconds);
+        else if (signal == SIGALRM)
+            fmt::print("scene {}: it waits: stopped after {} s by the clock\n", job.scene,
+                       kMostSecondsOfClock);
         else
             fmt::print("scene {}: the process ended: {}\n", job.scene,
                        signal ? strsignal(signal) : "exception");
