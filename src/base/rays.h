@@ -79,21 +79,28 @@ class Lift {
     Lift() = default;
     /// The rule for a scene around `center`. `half_extent_m`: its largest coordinate relative to that, and
     /// that of measured points. `nearest_m`: all measured points are at least so far from the centre.
-    Lift(const Vec3& center, double half_extent_m, double nearest_m = 0)
-        : center_(center), half_extent_m_(half_extent_m), nearest_m_(nearest_m) {}
+    /// `near_extent_m`: the extent of what is near to them, before a gap, where there is one.
+    Lift(const Vec3& center, double half_extent_m, double nearest_m = 0,
+         double near_extent_m = kFarthestEnd_m)
+        : center_(center),
+          half_extent_m_(half_extent_m),
+          nearest_m_(nearest_m),
+          near_extent_m_(std::min(near_extent_m, kFarthestEnd_m)) {}
 
     const Vec3& center() const { return center_; }
     double half_extent_m() const { return half_extent_m_; }
     /// Points on smaller things that are nearer to the centre are lifted as if on something of this size: the
     /// rounding error of a shadow ray to them is that of its far end. In scenes of more than 64 m it is that
     /// of ends up to 32 m away, so that a house on a large ground is as exact as one alone; but where nothing
-    /// is measured within such a distance, things are lifted for those who see them.
+    /// is measured within such a distance, things are lifted for those who see them. Ends beyond a gap do not
+    /// count: shadow rays from there end above the surface by a share of their length (point_tile.cpp).
     double least_size_m() const { return std::max(largest_size_m(), nearest_m_) / 4; }
     /// For points on things of unknown size: near the centre none is larger (geometry/cut.h), and elsewhere
     /// the distance from there counts.
-    double largest_size_m() const { return std::min(half_extent_m_, kFarthestEnd_m); }
-    /// For points that may be anywhere up to 256 m from the centre: half a millimetre at most.
-    double common_offset_m() const { return kShare * std::min(half_extent_m_, 256.0); }
+    double largest_size_m() const { return std::min(half_extent_m_, near_extent_m_); }
+    /// For points that may be anywhere up to 256 m from the centre, or as much nearer as there is a gap: half
+    /// a millimetre at most.
+    double common_offset_m() const { return kShare * std::min(half_extent_m_, 8 * near_extent_m_); }
     /// The distance by which a point near `position` on something of size `size_m` is lifted.
     double offset_m(const Vec3& position, double size_m) const {
         return relative_offset_m(position - center_, size_m);
@@ -114,7 +121,7 @@ class Lift {
   private:
     static constexpr double kFarthestEnd_m = 32;
     Vec3 center_;
-    double half_extent_m_ = 0, nearest_m_ = 0;
+    double half_extent_m_ = 0, nearest_m_ = 0, near_extent_m_ = kFarthestEnd_m;
 };
 
 }  // namespace stilb

@@ -90,6 +90,13 @@ const Mesh* stored_mesh(const Shape& shape) {
     return std::get_if<Mesh>(&shape);
 }
 
+std::size_t triangle_count(const Shape& shape) {
+    if (std::holds_alternative<Rectangle>(shape)) return 2;
+    if (std::holds_alternative<Box>(shape)) return 12;
+    const Mesh* mesh = stored_mesh(shape);
+    return mesh == nullptr ? 0 : mesh->triangles.size();
+}
+
 std::array<Vec3, 3> corners_of(const Shape& shape, std::size_t triangle) {
     if (const auto* instance = std::get_if<Instance>(&shape)) return instance->corners_of(triangle);
     if (const auto* rectangle = std::get_if<Rectangle>(&shape))

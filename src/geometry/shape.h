@@ -126,7 +126,9 @@ inline bool is_exact(const Shape& shape) {
 /// its own coordinates. Null where it stores none.
 const Mesh* stored_mesh(const Shape& shape);
 
-/// The corners of a triangle of a mesh, an instance, or the triangulated() rectangle or box, in the world.
+/// Of a mesh, an instance, or the triangulated() rectangle or box; 0 where the surface is_exact().
+std::size_t triangle_count(const Shape& shape);
+/// The corners of one of these triangles, in the world.
 std::array<Vec3, 3> corners_of(const Shape& shape, std::size_t triangle);
 
 /// The mesh of a shape in the world: its own, or a copy where it is an instance.

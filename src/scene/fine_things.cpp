@@ -30,13 +30,6 @@ double shortest_edge(const std::array<Vec3, 3>& corners) {
                   squared_length(corners[0] - corners[2])}));
 }
 
-std::size_t triangle_count(const Shape& shape) {
-    if (std::holds_alternative<Rectangle>(shape)) return 2;
-    if (std::holds_alternative<Box>(shape)) return 12;
-    const Mesh* mesh = geometry::stored_mesh(shape);
-    return mesh == nullptr ? 0 : mesh->triangles.size();
-}
-
 }  // namespace
 
 bool sees_fine_things(const Scene& scene, std::span<const Vec3> measured) {
@@ -55,7 +48,7 @@ bool sees_fine_things(const Scene& scene, std::span<const Vec3> measured) {
         });
     };
     return std::ranges::any_of(scene.objects, [&](const Object& object) {
-        for (std::size_t t = 0; t < triangle_count(object.shape); ++t) {
+        for (std::size_t t = 0; t < geometry::triangle_count(object.shape); ++t) {
             if (is_seen(geometry::corners_of(object.shape, t))) return true;
         }
         return false;

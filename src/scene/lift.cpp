@@ -1,7 +1,9 @@
 // The centre of ray queries: single precision is best there.
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <span>
 #include <variant>
@@ -17,6 +19,11 @@ constexpr double kLargeHalfExtent_m = 32;
 /// Limits of the work for one choice, in visits of a triangle or an object by a measured point.
 constexpr std::size_t kMostVisits = 20'000'000;
 constexpr std::size_t kMostPoints = 32;
+
+/// A gap is wider than so many extents of what is near to lamps and measured points. Offsets that suit rays
+/// from beyond it would be coarse for all that is near; such rays end above the surface by a share of their
+/// length instead.
+constexpr double kGap = 32;
 
 /// A place where precision is wanted.
 struct Vote {
@@ -121,11 +128,72 @@ Vec3 center_of(const Scene& scene, std::span<const Vec3> measured) {
     return largest_coordinate(nearest - middle) > kLargeHalfExtent_m ? nearest : middle;
 }
 
+/// Of the lamps and of the measured points.
+Bounds lit_places(const Scene& scene, std::span<const Vec3> measured) {
+    Bounds places;
+    for (const Vec3& point : measured) places.include(point);
+    for (const Light& light : scene.lights) {
+        if (const auto place = place_of(scene, light)) places.include(*place);
+        if (const auto object = lights::emitting_object(light)) {
+            const Bounds lamp = geometry::bounds_of(scene.object(*object).shape);
+            places.include(lamp.min), places.include(lamp.max);
+        }
+    }
+    return places;
+}
+
+double extent(const Bounds& box) { return 2 * box.half_extent(); }
+
+/// The largest coordinate of the way from one box to the other.
+double distance(const Bounds& a, const Bounds& b) {
+    return std::max({a.min.x - b.max.x, a.min.y - b.max.y, a.min.z - b.max.z, b.min.x - a.max.x,
+                     b.min.y - a.max.y, b.min.z - a.max.z, 0.0});
+}
+
+/// The extent of lamps, measured points and what is near to them; infinite where no gap lies between them and
+/// the rest. The more is lit and measured, the larger it is.
+double near_extent_m(const Scene& scene, std::span<const Vec3> measured) {
+    struct Things {
+        double nearest_m = Bounds::kInfinity;
+        Bounds bounds;
+    };
+    Bounds near = lit_places(scene, measured);
+    std::map<int, Things> by_distance;  // by powers of two, so that nothing has to be sorted
+    const auto add = [&, places = near](const Bounds& thing) {
+        const double distance_m = distance(places, thing);
+        auto& [nearest_m, bounds] = by_distance[std::ilogb(distance_m)];
+        nearest_m = std::min(nearest_m, distance_m);
+        bounds.include(thing.min), bounds.include(thing.max);
+    };
+    for (const Object& object : scene.objects) {
+        const Bounds box = geometry::bounds_of(object.shape);
+        const std::size_t triangles = geometry::triangle_count(object.shape);
+        if (box.is_empty()) continue;
+        // Only of larger things a part may lie beyond a gap.
+        if (triangles == 0 || extent(box) <= kGap * extent(near)) {
+            add(box);
+            continue;
+        }
+        for (std::size_t t = 0; t < triangles; ++t) {
+            Bounds part;
+            for (const Vec3& corner : geometry::corners_of(object.shape, t)) part.include(corner);
+            add(part);
+        }
+    }
+    for (const auto& [exponent, things] : by_distance) {
+        if (extent(near) > 0 && things.nearest_m > kGap * extent(near)) return extent(near);
+        near.include(things.bounds.min), near.include(things.bounds.max);
+    }
+    return Bounds::kInfinity;
+}
+
 }  // namespace
 
 Lift lift_of(const Scene& scene, std::span<const Vec3> measured, bool sees_fine_things) {
     const Bounds bounds = bounds_of(scene);
-    const bool is_large = bounds.half_extent() > kLargeHalfExtent_m || sees_fine_things;
+    const double near_m = measured.empty() ? Bounds::kInfinity : near_extent_m(scene, measured);
+    const bool is_large =
+        bounds.half_extent() > kLargeHalfExtent_m || std::isfinite(near_m) || sees_fine_things;
     const Vec3 center = is_large ? center_of(scene, measured) : bounds.middle();
     double half_extent_m =
         is_large ? std::max(largest_coordinate(bounds.max - center), largest_coordinate(bounds.min - center))
@@ -135,7 +203,7 @@ Lift lift_of(const Scene& scene, std::span<const Vec3> measured, bool sees_fine_
         half_extent_m = std::max(half_extent_m, largest_coordinate(point - center));
         nearest_m = std::min(nearest_m, largest_coordinate(point - center));
     }
-    return {center, half_extent_m, nearest_m};
+    return {center, half_extent_m, nearest_m, near_m};
 }
 
 }  // namespace stilb::scene

@@ -33,6 +33,15 @@ constexpr std::size_t kFew = 16;
 constexpr double kLongestShare = 0.3;
 constexpr int kDeepest = 48;
 
+/// Around the lamps: what is far from them changes nothing.
+Lift lift_of_lamps(const Scene& scene) {
+    std::vector<Vec3> lamps;
+    for (const Light& light : scene.lights) {
+        if (lights::emitting_object(light)) lamps.push_back(*place_of(scene, light));
+    }
+    return lift_of(scene, lamps);
+}
+
 /// The offset of lifted points at a place where lamps may lie in front of a surface. Half a millimetre is
 /// more than rounding for kilometres, and far things change no more where the centre of ray queries is
 /// elsewhere.
@@ -161,7 +170,7 @@ class OverlapSearch {
     OverlapSearch(const Scene& scene, OverlapsOf of, std::size_t most)
         : of_(of),
           most_(most),
-          lift_(lift_of(scene)),
+          lift_(lift_of_lamps(scene)),
           margin_(margin_of(lift_)),
           shapes_(scene.objects.size()) {
         std::vector<bool> is_lamp(scene.objects.size());
@@ -453,7 +462,7 @@ std::vector<std::array<std::uint32_t, 2>> find_overlaps(const Mesh& mesh, const 
 void put_lamps_in_front(Scene& scene) {
     for (const ObjectId lamp : lamps_of(scene)) make_own_mesh(scene.objects[index_of(lamp)]);
     constexpr std::size_t most = 10'000'000;
-    const Lift lift = lift_of(scene);
+    const Lift lift = lift_of_lamps(scene);
     std::map<ObjectId, std::vector<Push>> pushes;
     for (const Overlap& overlap : find_overlaps(scene, OverlapsOf::lamps, most)) {
         const double wanted_m = kLampGap * offset_m(lift, overlap.position);

@@ -76,8 +76,10 @@ Bounds bounds_of(const Scene& scene);
 /// How points are lifted off surfaces. Single precision is best near its centre: the middle of the bounding
 /// box, or in a scene of more than 64 m the median of the middles of all objects and lights, so that the
 /// details of a house count, not the middle of the ground around it. `measured`: points at which light is
-/// measured, if they are known; then the surfaces near to them count. `sees_fine_things`: as of these points
-/// (fine_things.h); then a smaller scene is treated like one of more than 64 m.
+/// measured, if they are known; then the surfaces near to them count, and what lies beyond a gap of more than
+/// 32 times the extent of lamps, measured points and what is near to them does not. `sees_fine_things`: as of
+/// these points (fine_things.h); then, or with such a gap, a smaller scene is treated like one of more than
+/// 64 m.
 Lift lift_of(const Scene& scene, std::span<const Vec3> measured = {}, bool sees_fine_things = false);
 /// The objects whose fronts are lamps.
 std::set<ObjectId> lamps_of(const Scene& scene);

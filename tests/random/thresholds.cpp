@@ -156,6 +156,11 @@ std::span<const Threshold> thresholds() {
         {"kLargeHalfExtent_m", "src/scene/lift.cpp", "32",
          "half extents: rays are most exact in the middle, or near to sensors",
          "tests/scene/lift_test.cpp: scenes of 63.9, 64 and 64.1 m; rooms from 1 cm to 1 km"},
+        {"kGap", "src/scene/lift.cpp", "32",
+         "gaps around lamps and sensors, in extents of what is near: things beyond count for offsets, or do "
+         "not",
+         "tests/scene/lift_test.cpp: 127.9, 128 and 128.1 m around a room of 4 m; "
+         "tests/run/far_things_test.cpp: rooms from 1 cm to 3 m, things from 1 m to 10,000 km away"},
         {"kShareOfRay", "src/base/rays.h", "0x1p-2",
          "lengths of rays: their ends are lifted by their place, or by the length",
          "tests/scene/lift_test.cpp: 0.9, 1 and 1.1; tests/run/lamp_in_middle_test.cpp: lamps from 20 m to 5 "

@@ -120,6 +120,35 @@ TEST(LampsInFront, AsFarOnAGroundOfAThousandKilometres) {
     }
 }
 
+/// By no more than a tenth of a thousandth of a room's side, whatever lies far away; and a sensor in its
+/// plane lies on the lamp.
+TEST(LampsInFront, AsFarAsTheRoomIsLarge) {
+    for (const double side_m : {0.01, 0.1, 3.0}) {
+        for (const double far_m : {0.0, 20.0, 1e3, 1e7}) {
+            Scene scene;
+            add_object(scene, Box{{0, 0, 0}, {side_m, side_m, side_m}}, diffuse(0.6));
+            if (far_m > 0) add_object(scene, Sphere{{far_m, 0, 0}, far_m / 10}, diffuse(0.5));
+            const double edge_m = 0.3 * side_m;
+            add_area_light(scene, Rectangle{{edge_m, edge_m, side_m}, {0, edge_m, 0}, {edge_m, 0, 0}},
+                           Rgb::grey(1000));
+            put_lamps_in_front(scene);
+            const ObjectId lamp = *lights::emitting_object(scene.lights[0]);
+            const double below_m = side_m - std::get<Rectangle>(scene.object(lamp).shape).corner.z;
+            EXPECT_GT(below_m, 1e-6 * side_m) << side_m << ' ' << far_m;
+            EXPECT_LT(below_m, 1e-4 * side_m) << side_m << ' ' << far_m;
+            const Vec3 on_lamp{1.5 * edge_m, 1.5 * edge_m, side_m};
+            const Vec3 corner{0.01 * side_m, 0.01 * side_m, 0.01 * side_m};
+            for (const std::vector<Vec3>& measured :
+                 {std::vector<Vec3>{}, {on_lamp}, {corner}, {on_lamp, corner}}) {
+                const rays::RayCaster caster(scene, Monitor::none(), measured);
+                const auto surface = place_of(MeasuringPoint{on_lamp, {0, 0, -1}}, caster).surface;
+                ASSERT_TRUE(surface) << side_m << ' ' << far_m;
+                EXPECT_EQ(surface->object, lamp) << side_m << ' ' << far_m;
+            }
+        }
+    }
+}
+
 TEST(LampsInFront, TheSecondTimeNothingMoves) {
     Scene scene = room_with_lamp(kRoom, panel_at(2.8));
     const Vec3 once = std::get<Rectangle>(scene.objects[1].shape).corner;

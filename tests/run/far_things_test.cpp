@@ -319,5 +319,118 @@ TEST(FarThings, ReadingsAboveTheFloorOfALargeHallLoseNoLight) {
     hall.expect_exact({point_sensor(points)}, places, "above the floor");
 }
 
+/// Points in a room of this side: on its floor and above it, from a thousandth of the side to three per cent
+/// away from walls, floor and ceiling.
+std::vector<MeasuringPoint> points_near_walls(const Vec3& at, double side_m) {
+    std::vector<MeasuringPoint> points;
+    const auto add = [&](double x, double y, double z) {
+        points.push_back({at + side_m * Vec3{x, y, z}, kUp});
+    };
+    for (const double share : {0.001, 0.003, 0.01, 0.03}) {
+        add(share, 0.3, 0), add(share, 0.3, 0.3), add(1 - share, share, share);
+        add(0.3, 0.3, share), add(0.3, 0.4, 1 - share);
+    }
+    return points;
+}
+
+/// A black room alone, and beside something of a tenth of the distance at which it lies.
+void expect_exact_in_small_rooms(const std::function<void(Scene&, const Vec3&, double)>& add_lamp,
+                                 const std::function<double(const MeasuringPoint&)>& exact_lx) {
+    for (const double side_m : {0.01, 0.1, 3.0}) {
+        for (const Vec3& at : {Vec3{}, Vec3{3.5e6, 5.4e6, 117}}) {
+            for (const double far_m : {0.0, 100 * side_m, 20.0, 1e3, 1e7}) {
+                Scene scene;
+                add_object(scene, Box{at, at + side_m * Vec3{1, 1, 1}}, Black{});
+                if (far_m > 0) add_object(scene, Sphere{at + Vec3{0, far_m, far_m}, far_m / 10}, diffuse(1));
+                add_lamp(scene, at, side_m);
+                const std::vector<MeasuringPoint> points = points_near_walls(at, side_m);
+                const auto values = values_of(scene, {point_sensor(points)}, "auto");
+                for (std::size_t i = 0; i < points.size(); ++i) {
+                    const MeasuringPoint in_room{(points[i].position - at) / side_m, points[i].normal};
+                    EXPECT_NEAR(values[i] / exact_lx(in_room), 1, 0.001)
+                        << "side " << side_m << " m, beside a thing at " << far_m << " m, " << i;
+                }
+                // A thousandth of the side behind its walls it is dark, but for rounding as seen from afar.
+                const auto behind = values_of(scene,
+                                              {point_sensor({{at + side_m * Vec3{-0.001, 0.3, 0.3}, kUp},
+                                                             {at + side_m * Vec3{0.3, 1.001, 0.3}, kUp},
+                                                             {at + side_m * Vec3{0.3, 0.3, -0.001}, kUp}})},
+                                              "path", 64);
+                for (const double lx : behind) EXPECT_LT(lx, 1e-12) << side_m << ' ' << far_m;
+            }
+        }
+    }
+}
+
+/// By the inverse square law.
+TEST(FarThings, SmallRoomsReadAsAloneNearTheirWalls) {
+    const Vec3 lamp{0.5, 0.5, 0.9995};
+    expect_exact_in_small_rooms(
+        [&](Scene& scene, const Vec3& at, double side_m) {
+            add_point_light(scene, at + side_m * lamp, Rgb::grey(side_m * side_m));
+        },
+        [&](const MeasuringPoint& point) {
+            const Vec3 to_lamp = lamp - point.position;
+            return dot(to_lamp, point.normal) / std::pow(length(to_lamp), 3);
+        });
+}
+
+/// A panel in the plane of the ceiling.
+TEST(FarThings, SmallRoomsReadAsAloneBelowTheirPanels) {
+    const Rectangle panel{{0.25, 0.3, 1}, {0, 0.3, 0}, {0.3, 0, 0}};
+    expect_exact_in_small_rooms(
+        [&](Scene& scene, const Vec3& at, double side_m) {
+            add_area_light(
+                scene, Rectangle{at + side_m * panel.corner, side_m * panel.edge_u, side_m * panel.edge_v},
+                Rgb::grey(1000));
+        },
+        [&](const MeasuringPoint& point) {
+            return exact::illuminance_by_rectangle_lx({point.position, point.normal}, panel.corner,
+                                                      panel.edge_u, panel.edge_v, 1000);
+        });
+}
+
+/// Of 4 cm and of 40 cm, by all methods, with points between floor and table.
+TEST(FarThings, ChangeNoReadingOfASmallFurnishedRoom) {
+    for (const double scale : {0.01, 0.1}) {
+        Scene room = furnished_room({});
+        for (Object& object : room.objects)
+            object.shape = geometry::transformed(object.shape, geometry::Transform::scaling(scale));
+        std::vector<MeasuringPoint> points;
+        for (int i = 0; i < 64; ++i)
+            points.push_back({scale * Vec3{0.25 + 0.5 * (i % 8), 0.2 + 0.37 * (i / 8), 0.01}, kUp});
+        Scene beside = room;
+        add_object(beside, Sphere{{0, 0, -1e4}, 3e3}, diffuse(0.5));
+        for (const std::string_view method : {"path", "auto", "light-paths", "guided"}) {
+            const auto estimates = [&](const Scene& scene) {
+                return estimates_of(scene, {point_sensor(points)}, method, 2048);
+            };
+            expect_unchanged(estimates(beside), estimates(room), false, fmt::format("{}, {}", method, scale));
+        }
+    }
+}
+
+/// A wall beyond a gap, which an even sky lights, seen from the side of a small box: rays from there end at
+/// the box as exactly as rays from nearby.
+TEST(FarThings, AWallBeyondAGapLightsASmallBox) {
+    for (const double far_m : {10.0, 100.0, 1e4}) {
+        const Rectangle wall{{far_m, -far_m, -far_m}, {0, 0, 2 * far_m}, {0, 2 * far_m, 0}};
+        Scene scene;
+        add_object(scene, Box{{-0.1, -0.05, -0.05}, {0, 0.05, 0.05}}, Black{});
+        add_object(scene, wall, diffuse(0.5));
+        add_environment(scene, Rgb::grey(100));
+        const MeasuringPoint point{{0, 0.01, 0.02}, {1, 0, 0}};
+        const double wall_lx = exact::illuminance_by_rectangle_lx({point.position, point.normal}, wall.corner,
+                                                                  wall.edge_u, wall.edge_v, 50);
+        const double exact_lx = kPi * 100 - wall_lx;  // the wall is half as bright as the sky
+        for (const std::string_view method : {"path", "light-paths", "local", "guided"}) {
+            const auto found = estimates_of(scene, {point_sensor({point})}, method, 2048)[0];
+            EXPECT_NEAR(found.value, exact_lx, 4 * found.standard_error + 1e-4 * exact_lx)
+                << method << ' ' << far_m;
+            EXPECT_LT(found.standard_error, 0.03 * exact_lx) << method << ' ' << far_m;
+        }
+    }
+}
+
 }  // namespace
 }  // namespace stilb::run

@@ -92,6 +92,53 @@ TEST(LiftOf, IsAroundTheMeasuredPointsHoweverManyThereAre) {
     }
 }
 
+/// What is farther than 32 extents of the room: its rays are rounded by their own length.
+TEST(LiftOf, DoesNotCountWhatLiesBeyondAGap) {
+    const std::vector<Vec3> measured{{1, 1, 0}};  // with the lamp, x is at most 2
+    for (const double distance_m : {127.9, 128.0, 128.1, 1e6}) {
+        Scene scene;
+        add_room(scene, {});
+        add_object(scene, triangle_at({2 + distance_m, 0, 0}), diffuse(0.5));
+        const double near_m = distance_m > 128 ? 4 : 32;
+        EXPECT_EQ(lift_of(scene, measured).largest_size_m(), near_m) << distance_m;
+        EXPECT_EQ(lift_of(scene).largest_size_m(), 32);
+    }
+}
+
+/// Wherever a mesh has a stray triangle, and on every side.
+TEST(LiftOf, DoesNotCountAPartOfAMeshBeyondAGap) {
+    for (const Vec3& stray : {Vec3{1e4, 0, 0}, Vec3{-1e4, 0, 0}, Vec3{0, 1e4, 0}, Vec3{0, 0, -1e7}}) {
+        Scene scene;
+        add_room(scene, {});
+        Mesh& room =
+            std::get<Mesh>(scene.objects[0].shape = triangulated(std::get<Box>(scene.objects[0].shape)));
+        const auto first = static_cast<std::uint32_t>(room.vertices.size());
+        for (const Vec3& vertex : triangle_at(stray).vertices) room.vertices.push_back(vertex);
+        room.triangles.push_back({first, first + 1, first + 2});
+        EXPECT_EQ(lift_of(scene, std::vector<Vec3>{{1, 1, 0}}).largest_size_m(), 4);
+    }
+}
+
+/// A lamp and a measured point there count, however far they are.
+TEST(LiftOf, CountsLampsAndMeasuredPointsBeyondAGap) {
+    Scene scene;
+    add_room(scene, {});
+    EXPECT_EQ(lift_of(scene, std::vector<Vec3>{{1, 1, 0}, {1000, 1, 0}}).largest_size_m(), 32);
+    add_point_light(scene, {0, 0, 1000}, Rgb::grey(1));
+    EXPECT_EQ(lift_of(scene, std::vector<Vec3>{{1, 1, 0}}).largest_size_m(), 32);
+}
+
+/// One of 1 cm, 20 m beside another thing, in a scene of less than 64 m.
+TEST(LiftOf, IsThatOfASmallRoomInASmallScene) {
+    Scene scene;
+    add_object(scene, Box{{5, 5, 5}, {5.01, 5.01, 5.01}}, diffuse(0.5));
+    add_object(scene, triangle_at({25, 5, 5}), diffuse(0.5));
+    const Vec3 inside{5.003, 5.002, 5.001};
+    const Lift lift = lift_of(scene, std::vector{inside});
+    EXPECT_NEAR(lift.largest_size_m(), 0.01, 1e-12);
+    EXPECT_LT(length(lift.center() - inside), 0.02);
+}
+
 /// Where nothing is measured nearby, things are lifted for those who see them.
 TEST(LiftOf, KnowsHowFarTheNearestMeasuredPointIs) {
     Scene scene;
