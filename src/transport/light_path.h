@@ -24,6 +24,7 @@ struct LightVertex {
     /// through a pane): path tracing cannot find this light, at any vertex.
     bool only_by_light = false;
     double favour = 1;  ///< as EmittedParticle's: the vertex counts so much more where some are selected
+    double split = 1;   ///< the k of other connections over that of its own (weights.h)
 };
 
 /// Traces one light path. Absorption (Russian roulette with the surface's reflectance) comes before a vertex

@@ -42,8 +42,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/estimators/local/guess/certain_light.cpp", "none"},
         {"src/estimators/local/guess/certain_sides.cpp", "rounding"},
         {"src/estimators/local/guess/guess_gather.cpp", "spread"},
-        {"src/estimators/local/guess/guess_points.cpp", "kKernels kMorePoints"},
-        {"src/estimators/local/guess/guess_points.h", "kResidualSplit"},
+        {"src/estimators/local/guess/guess_points.cpp", "kKernels kMorePoints kResidualSplit"},
         {"src/estimators/local/guess/guided_light.cpp",
          "kPathsPerSample kVerticesPerSample kGroupExtent kSpread kPathsToLight "
          "kPathsToDark around parallel of_path of_even of_general"},
@@ -52,6 +51,7 @@ std::span<const OtherConstants> other_constants() {
          "kRays kDirectSamples kPoints kVertices kPixelsPerPath kMostPaths "
          "parallel near"},
         {"src/estimators/local/guess/light_guess.cpp", "kSidePackets kSideDirect kChange"},
+        {"src/estimators/local/guess/part_reflection.h", "without_guess"},
         {"src/estimators/local/guess/residual_light.cpp",
          "kResidualPackets kResidualDirect kBranches kFloor kEvenShare kPilots"},
         {"src/estimators/local/kernel_choice.cpp", "kDefensive"},

@@ -68,7 +68,7 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
         const transport::Receiver::Response response = tile.receivers[i].response(-to_point);
         const double relative =
             transport::bounding_brdf(transport::relative_brdf(*vertex.material, brdf), tile.choice) *
-            response.relative;
+            response.relative * vertex.split;
         const double g = g_per_m2[i];
         const double connected_share = vertex.only_by_light ? 1 : 1 / (1 + relative * g * tile.inverse_k[i]);
         Rgb added = vertex.flux_lm * brdf * (g * connected_share);

@@ -195,11 +195,12 @@ Rgb GuessGather::traced(const transport::Receiver& receiver, math::SampleStream 
 
 auto GuessGather::continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const
     -> Continuation {
-    const PartShares shares(g_over_k);
-    if ((light.traced_lanes >> lane & 1u) != 0) return {shares, 1, true};
+    if ((light.traced_lanes >> lane & 1u) != 0) return {{}, 1, true};
     const std::uint32_t side = light.sides[lane];
-    if (side == patches::kNoSide) return {shares, 0, false};
-    return {shares, continuation_probability(guess_.material(side), shares), false};
+    if (side == patches::kNoSide) return {{}, 0, false};
+    const materials::SplitMaterial& material = guess_.material(side);
+    const PartShares shares(g_over_k, material);
+    return {shares, continuation_probability(material, shares), false};
 }
 
 Rgb GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction,

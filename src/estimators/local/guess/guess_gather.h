@@ -61,7 +61,7 @@ class GuessGather {
         /// By sides. Connections share the light of uncertain ones; closed forms have the mean luminance of
         /// certain ones. Empty: all are uncertain.
         std::span<const Sight> sights;
-        float split = kResidualSplit;  ///< as that of the points of the guess
+        float split = 0;  ///< as that of the points of the guess
     };
     /// Adds one ray from every receiver of a tile, whose responses must be constant and whose k is that of
     /// the residual. `u`: the random point of the rays. `key`, `round`: for the paths of rays that path

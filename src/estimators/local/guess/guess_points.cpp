@@ -12,13 +12,20 @@ namespace {
 /// Connections to points of the guess share light with gathering rays by k = kKernels x points / area: about
 /// the density at which points lie as far from each other as from the receiver.
 constexpr double kKernels = 5;
+/// The k of connections to vertices of the residual, over that of connections to points of the guess on as
+/// large an area: the residual is little light, and the rest of its connections is found by long paths.
+constexpr double kResidualSplit = 200;
 /// Points, over those in proportion to the light that they bring.
 constexpr double kMorePoints = 1.5;
 
 }  // namespace
 
-GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster)
-    : guess_(guess), caster_(caster), all_(guess.patches().center) {
+GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster, double residual_area_m2)
+    : guess_(guess),
+      caster_(caster),
+      area_m2_(guess.lit_area_m2() > 0 ? guess.lit_area_m2() : residual_area_m2),
+      split_(residual_area_m2 > 0 ? kResidualSplit * (area_m2_ / residual_area_m2) : kResidualSplit),
+      all_(guess.patches().center) {
     std::vector<double> luminances_cd_m2;
     for (const std::uint32_t side : guess.lit_sides()) {
         luminances_cd_m2.push_back(guess.mean_cd_m2(side).luminance());
@@ -42,7 +49,7 @@ void GuessPoints::add(std::size_t i, KernelChoice& sides) const {
 }
 
 double GuessPoints::k_per_m2(std::size_t count) const {
-    return guess_.lit_area_m2() > 0 ? kKernels * static_cast<double>(count) / guess_.lit_area_m2() : 1;
+    return area_m2_ > 0 ? kKernels * static_cast<double>(count) / area_m2_ : 1;
 }
 
 auto GuessPoints::uncertain_sides(std::span<const transport::Receiver> receivers, const Sights& sights,
@@ -66,7 +73,7 @@ auto GuessPoints::uncertain_sides(std::span<const transport::Receiver> receivers
         std::ceil(kMorePoints * share * static_cast<double>(most)), 1.0, static_cast<double>(most)));
     const double k = kKernels * static_cast<double>(choice.count) / area_m2;
     choice.sums = sides.sums_for(receivers, k);
-    choice.split = static_cast<float>(kResidualSplit * k_per_m2(most) / k);
+    choice.split = static_cast<float>(residual_k_per_m2(most) / k);
     return choice;
 }
 

@@ -15,25 +15,22 @@
 
 namespace stilb::estimators {
 
-/// The k of connections to vertices of the residual, over that of connections to points of the guess: the
-/// residual is little light, and the rest of its connections is found by long paths.
-inline constexpr float kResidualSplit = 200;
-
 /// Keeps references to its arguments. Immutable.
 class GuessPoints {
   public:
-    GuessPoints(const LightGuess& guess, const rays::RayCaster& caster);
+    /// `residual_area_m2`: of the surfaces from which the residual comes.
+    GuessPoints(const LightGuess& guess, const rays::RayCaster& caster, double residual_area_m2);
 
     /// The weights of sides for the receivers of a group.
     struct Choice {
         KernelChoice::Sums sums;
         std::vector<std::uint32_t> sides;  ///< that these belong to; empty: all lit ones
-        float split = kResidualSplit;      ///< the k of the residual over that of connections to the points
+        float split = 0;                   ///< the k of the residual over that of connections to the points
         std::size_t count = 0;             ///< of points that the group takes at once
     };
     /// All lit sides, for receivers near the given ones. Without any, light alone decides.
     Choice all_sides(std::span<const transport::Receiver> receivers, std::size_t count) const {
-        return {all_.sums_for(receivers, k_per_m2(count)), {}, kResidualSplit, count};
+        return {all_.sums_for(receivers, k_per_m2(count)), {}, split(), count};
     }
     /// The sides whose sight is uncertain, and as many of the points as is their share of the light.
     /// `certain_lx`: what the receivers get from the others.
@@ -41,6 +38,9 @@ class GuessPoints {
                            double certain_lx, std::size_t most) const;
     /// The k of connections to so many points of all lit sides at once.
     double k_per_m2(std::size_t count) const;
+    /// The k of connections to the residual beside them, and that over the k of the points.
+    double residual_k_per_m2(std::size_t count) const { return split_ * k_per_m2(count); }
+    float split() const { return static_cast<float>(split_); }
 
     /// Adds points that lie evenly over the weights, but for those of places that other sides own; the
     /// expectation over `u` of their light is that of all the sides.
@@ -53,6 +53,8 @@ class GuessPoints {
 
     const LightGuess& guess_;
     const rays::RayCaster& caster_;
+    double area_m2_;  ///< of the lit sides; without any, of the residual's
+    double split_;
     /// By lit sides: luminance times area; more in a room with weak lamps, as brighter walls of other rooms
     /// may be hidden.
     std::vector<double> weights_;

@@ -49,7 +49,7 @@ GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
       direct(scene, all, lights),
       guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
       residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
-      points(guess, all),
+      points(guess, all, residual.area_m2()),
       gather(all, tracer, guess, residual),
       sides(scene, guess, all) {}
 

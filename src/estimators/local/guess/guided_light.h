@@ -32,9 +32,7 @@ struct GuidedLight {
                 const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor);
 
     /// Of connections to the residual, where so many points of the guess are connected at once.
-    double k_per_m2(std::size_t points_at_once) const {
-        return kResidualSplit * points.k_per_m2(points_at_once);
-    }
+    double k_per_m2(std::size_t points_at_once) const { return points.residual_k_per_m2(points_at_once); }
 
     /// Sorts receivers by what brings light to them, and divides glossy ones into the parts of their
     /// material.

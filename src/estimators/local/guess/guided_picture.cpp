@@ -129,7 +129,7 @@ class GuidedPicture final : public LocalPicture {
                 GuessGather::Sums gathered;
                 for (std::uint64_t i = 0; i < kRays; ++i)
                     guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, kPaths),
-                                           kRays * pass_.index + i, {}, gathered);
+                                           kRays * pass_.index + i, {{}, guide.points.split()}, gathered);
                 GuessGather::flush(tile, gathered, 1. / kRays, sums);
             }
         }

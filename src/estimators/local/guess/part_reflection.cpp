@@ -20,7 +20,7 @@ class SharedReflection {
           outgoing_(gloss_.frame().to_local(outgoing)) {
         const double diffuse = material.diffuse_reflectance().luminance() * shares.diffuse();
         const double gloss = material.gloss ? material.gloss_reflectance().luminance() *
-                                                  shares.by_relative(mean_concentration(*material.gloss))
+                                                  shares.of_mean_gloss(mean_concentration(*material.gloss))
                                             : 0;
         diffuse_probability_ = diffuse + gloss > 0 ? diffuse / (diffuse + gloss) : 1;
     }
@@ -64,7 +64,7 @@ double continuation_probability(const materials::SplitMaterial& material, const 
     if (!material.gloss) return of_diffuse;
     const double gloss = material.gloss_reflectance().luminance();
     const double all = gloss + material.diffuse_reflectance().luminance();
-    const double of_gloss = shares.by_relative(mean_concentration(*material.gloss));
+    const double of_gloss = shares.of_mean_gloss(mean_concentration(*material.gloss));
     return std::max(of_diffuse, all > 0 ? of_gloss * gloss / all : 0);
 }
 

@@ -8,16 +8,31 @@
 
 namespace stilb::estimators {
 
+/// The k of connections to other vertices over that of connections to the gloss of a material. Without a
+/// diffuse part a surface has no guess: its residual is all its light, and close to it few connections, which
+/// need a tighter bound, would bring most of that.
+inline double split_of_gloss(const materials::SplitMaterial& material) {
+    constexpr double without_guess = 10;
+    return material.diffuse_reflectance().max() > 0 ? 1 : without_guess;
+}
+
 /// What gathering rays add to bounded connections with the surface (weights.h): 1 - w, for a part with
 /// relative BRDF s.
-struct PartShares {
-    explicit PartShares(double g_over_k) : by_relative{g_over_k} {}
+class PartShares {
+  public:
+    /// Of a surface without connections: everything is gathered.
+    PartShares() = default;
+    PartShares(double g_over_k, const materials::SplitMaterial& material)
+        : diffuse_{g_over_k}, gloss_{g_over_k * split_of_gloss(material)} {}
 
-    double diffuse() const { return by_relative(1); }
+    double diffuse() const { return diffuse_(1); }
     double of_gloss(double relative) const {
-        return by_relative(transport::bounding_brdf(relative, transport::VertexChoice::by_kernel));
+        return gloss_(transport::bounding_brdf(relative, transport::VertexChoice::by_kernel));
     }
-    transport::GatheredShare by_relative;
+    double of_mean_gloss(double mean_concentration) const { return gloss_(mean_concentration); }
+
+  private:
+    transport::GatheredShare diffuse_, gloss_;
 };
 
 /// The probability with which a ray that meets such a surface is continued: about the share of its reflected

@@ -6,6 +6,7 @@
 
 #include "base/parallel.h"
 #include "estimators/limits.h"
+#include "estimators/local/guess/part_reflection.h"
 #include "materials/shaded_surface.h"
 #include "transport/receiver.h"
 #include "transport/weights.h"
@@ -26,7 +27,7 @@ constexpr double kFloor = 0.1;
 constexpr double kEvenShare = 0.1;
 /// Sides get favour (LightVertex::favour) where the pilot finds less than this share of what they get evenly:
 /// those of a room whose lamps are much weaker than those of other rooms.
-constexpr double kWeakSide = 1e-3;
+constexpr double kWeakSide = 0.1;
 /// Points of each side at which r is estimated for that.
 constexpr std::uint64_t kPilots = 2;
 
@@ -69,19 +70,22 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
       direct_(direct),
       tracer_(tracer),
       guess_(guess),
-      has_light_for_light_paths_only_(has_light_for_light_paths_only(scene)) {
+      has_light_for_light_paths_only_(has_light_for_light_paths_only(scene)),
+      area_m2_(guess.lit_area_m2()) {
     const patches::Patches& patches = guess.patches();
     for (std::uint32_t side = 0; side < 2 * patches.count(); ++side) {
         if (guess.material(side).reflects()) sides_.push_back(side);
     }
+    const auto has_guess = [&](std::uint32_t side) {
+        return guess.material(side).diffuse_reflectance().max() > 0;
+    };
     std::vector<double> weights(sides_.size());
     parallel_for_parts(
         sides_.size(),
         [&](std::size_t first, std::size_t last) {
             monitor.require_more();
             for (std::size_t i = first; i < last; ++i) {
-                const bool has_guess = guess.material(sides_[i]).diffuse_reflectance().max() > 0;
-                if (!has_guess || std::ranges::binary_search(guess.lit_sides(), sides_[i]))
+                if (!has_guess(sides_[i]) || std::ranges::binary_search(guess.lit_sides(), sides_[i]))
                     weights[i] = pilot(sides_[i], key);
             }
         },
@@ -92,7 +96,9 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
     const double evenly = sum > 0 ? kEvenShare * sum / area_m2 : 1;
     favours_.assign(sides_.size(), 1);
     for (std::size_t i = 0; i < sides_.size(); ++i) {
-        const double even = evenly * double{patches.areas_m2[patches.patch_of(sides_[i])]};
+        const double own_m2 = double{patches.areas_m2[patches.patch_of(sides_[i])]};
+        if (weights[i] > 0 && !has_guess(sides_[i])) area_m2_ += own_m2;
+        const double even = evenly * own_m2;
         if (weights[i] > 0 && weights[i] < kWeakSide * even) favours_[i] = even / weights[i];
         weights[i] += even;
     }
@@ -236,7 +242,9 @@ void ResidualLight::add(const transport::LightVertex& whole, const materials::Sp
         nodes.back().material = &material;
     };
     if (parts.diffuse_reflectance().max() > 0) add_part(parts.diffuse);
-    if (parts.gloss) add_part(*parts.gloss);
+    if (!parts.gloss) return;
+    add_part(*parts.gloss);
+    nodes.back().split = split_of_gloss(parts);
 }
 
 void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const {
@@ -259,7 +267,7 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
             {position, lifted, normal, normal, normal, &parts.diffuse, missing, 1, false, favour});
     if (gloss != Rgb{})
         nodes.push_back({position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving,
-                         1, false, favour});
+                         1, false, favour, split_of_gloss(parts)});
     const std::size_t own = nodes.size();
     branch_out(start, parts, missing, arriving, stream, nodes);
     for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour = favour;

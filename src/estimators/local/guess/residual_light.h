@@ -38,6 +38,9 @@ class ResidualLight {
     /// the light of point lights included [cd/m2].
     Rgb missing_cd_m2(std::uint32_t side, const math::Barycentric& at, math::SampleStream& stream) const;
 
+    /// The lit area from which it comes: that of the guess, and of surfaces that have no guess.
+    double area_m2() const { return area_m2_; }
+
   private:
     /// Where and how paths start.
     struct Start {
@@ -83,6 +86,7 @@ class ResidualLight {
     const transport::PathTracer& tracer_;
     const LightGuess& guess_;
     bool has_light_for_light_paths_only_;
+    double area_m2_;
     std::vector<std::uint32_t> sides_;        ///< that reflect light and are not traced
     math::DiscreteDistribution by_residual_;  ///< over `sides_`
     std::vector<double> favours_;             ///< LightVertex::favour of their starts
