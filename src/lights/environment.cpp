@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "lights/luminaire.h"
-#include "math/sampling.h"
 
 namespace stilb::lights {
 namespace {
@@ -25,10 +24,56 @@ Bounds enlarged(const Bounds& bounds) {
     return {bounds.min - room, bounds.max + room};
 }
 
+std::vector<Entry> entries_into(const Surroundings& surroundings) {
+    std::vector<Entry> entries{{enlarged(surroundings.bounds())}};
+    for (const Entry& entry : surroundings.entries()) {
+        entries.push_back(entry);
+        entries.front().share -= entry.share;
+    }
+    return entries;
+}
+
+math::DiscreteDistribution choice_of(std::span<const Entry> entries) {
+    std::vector<double> shares;
+    for (const Entry& entry : entries) shares.push_back(entry.share);
+    return math::DiscreteDistribution(shares);
+}
+
+/// The lengths along a line at which it enters and leaves a box; the first is larger where it misses it.
+std::array<double, 2> lengths_within(const Bounds& box, const Vec3& point, const Vec3& direction) {
+    std::array<double, 2> within{-Bounds::kInfinity, Bounds::kInfinity};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+        const double low = box.min[axis] - point[axis], high = box.max[axis] - point[axis];
+        const double along = direction[axis];
+        if (along == 0) {
+            if (low > 0 || high < 0) return {1, -1};
+            continue;
+        }
+        within[0] = std::max(within[0], (along > 0 ? low : high) / along);
+        within[1] = std::min(within[1], (along > 0 ? high : low) / along);
+    }
+    return within;
+}
+
+/// On a box's face across an axis, on its upper or lower side.
+Vec3 on_face(const Bounds& box, std::size_t axis, bool is_upper, const std::array<double, 2>& u) {
+    const std::size_t second = (axis + 1) % 3, third = (axis + 2) % 3;
+    const auto between = [&](std::size_t along, double share) {
+        return box.min[along] + share * (box.max[along] - box.min[along]);
+    };
+    return with_components(axis, (is_upper ? box.max : box.min)[axis], between(second, u[0]),
+                           between(third, u[1]));
+}
+
 /// The areas of the faces across x, y and z.
 std::array<double, 3> face_areas_m2(const Bounds& box) {
     const Vec3 e = box.max - box.min;
     return {e.y * e.z, e.z * e.x, e.x * e.y};
+}
+
+double total_face_area_m2(const Bounds& box) {
+    const auto areas = face_areas_m2(box);
+    return areas[0] + areas[1] + areas[2];
 }
 
 /// The projected areas of the box along a unit direction, face by face: one of each pair.
@@ -44,10 +89,7 @@ double projected_area_m2(const Bounds& box, const Vec3& direction) {
 }
 
 Rgb flux_into(const Bounds& box, const EnvironmentLight& light) {
-    if (!light.panorama) {
-        const auto areas = face_areas_m2(box);
-        return 2 * kPi * (areas[0] + areas[1] + areas[2]) * light.luminance_cd_m2;
-    }
+    if (!light.panorama) return 2 * kPi * total_face_area_m2(box) * light.luminance_cd_m2;
     Rgb flux;
     for (const Panorama::Part& part : light.panorama->parts())
         flux += projected_area_m2(box, light.axes.to_world(part.direction)) * part.normal_illuminance_lx;
@@ -117,34 +159,50 @@ Frame panorama_axes(const Vec3& unit_up, double rotation_deg) {
 EnvironmentEmitter::EnvironmentEmitter(const EnvironmentLight& light, const Surroundings& surroundings,
                                        const Lift&)
     : light_(light),
-      box_(enlarged(surroundings.bounds())),
-      flux_lm_(flux_into(box_, light)),
+      entries_(entries_into(surroundings)),
+      choice_(choice_of(entries_)),
+      flux_lm_(flux_into(entries_.front().box, light)),
       illuminance_lx_(rough_illuminances_lx(light)) {}
 
 Emission EnvironmentEmitter::emit(math::SampleStream& stream) const {
     return light_.panorama ? emit_panorama(stream) : emit_constant(stream);
 }
 
-Vec3 EnvironmentEmitter::on_face(std::size_t axis, bool is_upper, const std::array<double, 2>& u) const {
-    const std::size_t second = (axis + 1) % 3, third = (axis + 2) % 3;
-    const auto between = [&](std::size_t along, double share) {
-        return box_.min[along] + share * (box_.max[along] - box_.min[along]);
+template <typename Area>
+Emission EnvironmentEmitter::through(std::size_t entry, const Vec3& point, const Vec3& direction,
+                                     const Rgb& share, const Area& area_m2) const {
+    if (entries_.size() == 1) return {point, direction, share};
+    const auto meets = [&](const Bounds& box) {
+        const auto [enters, leaves] = lengths_within(box, point, direction);
+        return enters <= leaves;
     };
-    return with_components(axis, (is_upper ? box_.max : box_.min)[axis], between(second, u[0]),
-                           between(third, u[1]));
+    // Of the line, over that of particles through the scene's box alone.
+    double density = 0;
+    for (std::size_t i = 0; i < entries_.size(); ++i) {
+        const auto& [box, share_of_box] = entries_[i];
+        if (i == 0 || i == entry || meets(box))
+            density += share_of_box * area_m2(entries_.front().box) / area_m2(box);
+    }
+    // It starts outside of the scene.
+    const double back_m =
+        entry == 0 ? 0 : std::min(lengths_within(entries_.front().box, point, direction)[0], 0.0);
+    return {point + back_m * direction, direction, share * (1 / density), density};
 }
 
 Emission EnvironmentEmitter::emit_constant(math::SampleStream& stream) const {
-    const auto areas = face_areas_m2(box_);
-    const std::array<double, 3> sums{areas[0], areas[0] + areas[1], areas[0] + areas[1] + areas[2]};
     const auto [u1, u2] = stream.next_two();
     const auto [v1, v2] = stream.next_two();
-    const auto choice = math::choose_by_sums(sums, u1);
+    const auto entry = choice_.choose(u1);
+    const Bounds& box = entries_[entry.index].box;
+    const auto areas = face_areas_m2(box);
+    const std::array<double, 3> sums{areas[0], areas[0] + areas[1], areas[0] + areas[1] + areas[2]};
+    const auto choice = math::choose_by_sums(sums, entry.remainder);
     const bool is_upper = choice.remainder < 0.5;
     const double rest = 2 * choice.remainder - (is_upper ? 0 : 1);
     const Vec3 inwards = with_components(choice.index, is_upper ? -1 : 1, 0, 0);
-    return {on_face(choice.index, is_upper, {rest, u2}),
-            Frame::around(inwards).to_world(math::sample_cosine_hemisphere(v1, v2).direction)};
+    return through(entry.index, on_face(box, choice.index, is_upper, {rest, u2}),
+                   Frame::around(inwards).to_world(math::sample_cosine_hemisphere(v1, v2).direction),
+                   Rgb::grey(1), total_face_area_m2);
 }
 
 Emission EnvironmentEmitter::emit_panorama(math::SampleStream& stream) const {
@@ -152,19 +210,24 @@ Emission EnvironmentEmitter::emit_panorama(math::SampleStream& stream) const {
     const auto [v1, v2] = stream.next_two();
     const Panorama::Sample sample = light_.panorama->sample(u1, u2);
     const Vec3 towards = light_.axes.to_world(sample.direction);
-    const auto areas = projected_areas_m2(box_, towards);
+    const auto entry = choice_.choose(v1);
+    const Bounds& box = entries_[entry.index].box;
+    const auto areas = projected_areas_m2(box, towards);
     const std::array<double, 3> sums{areas[0], areas[0] + areas[1], areas[0] + areas[1] + areas[2]};
-    const auto choice = math::choose_by_sums(sums, v1);
-    Rgb share = sample.luminance_cd_m2 * (sums[2] / sample.pdf_per_sr);
+    const auto choice = math::choose_by_sums(sums, entry.remainder);
+    const auto projected = [&](const Bounds& of) { return projected_area_m2(of, towards); };
+    Rgb share = sample.luminance_cd_m2 * (projected(entries_.front().box) / sample.pdf_per_sr);
     for (std::size_t b = 0; b < kBands; ++b) share[b] = flux_lm_[b] > 0 ? share[b] / flux_lm_[b] : 0;
-    return {on_face(choice.index, towards[choice.index] > 0, {choice.remainder, v2}), -towards, share};
+    return through(entry.index, on_face(box, choice.index, towards[choice.index] > 0, {choice.remainder, v2}),
+                   -towards, share, projected);
 }
 
 IncidentLight EnvironmentEmitter::incident(const Vec3& from, const Vec3& direction, const Rgb& luminance,
                                            double pdf_per_sr) const {
     // All surfaces are in a sphere around the box; the segment ends beyond it.
-    const Vec3 center = 0.5 * (box_.min + box_.max);
-    const double radius_m = length(box_.max - box_.min) / 2;
+    const Bounds& box = entries_.front().box;
+    const Vec3 center = 0.5 * (box.min + box.max);
+    const double radius_m = length(box.max - box.min) / 2;
     const double reach_m = std::max(dot(center - from, direction), 0.0) + 2 * radius_m;
     return {from + reach_m * direction, direction, luminance * (1 / pdf_per_sr), pdf_per_sr};
 }

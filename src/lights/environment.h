@@ -2,9 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "lights/light_kind.h"
 #include "lights/panorama.h"
+#include "math/sampling.h"
 
 namespace stilb::lights {
 
@@ -31,7 +33,9 @@ Frame panorama_axes(const Vec3& unit_up, double rotation_deg);
 
 /// Particles enter through the faces of the scene's bounding box, a little enlarged, in proportion to the
 /// flux where the luminance is constant; elsewhere in proportion to luminance, uniformly over the box as it
-/// is seen from their direction, and carry flux in proportion to its projected area.
+/// is seen from their direction, and carry flux in proportion to its projected area. A share of them goes
+/// through the boxes of Surroundings::entries() in the same manner, and each has the density of all boxes
+/// that its line meets.
 class EnvironmentEmitter {
   public:
     EnvironmentEmitter(const EnvironmentLight& light, const Surroundings& surroundings, const Lift& lift);
@@ -48,13 +52,17 @@ class EnvironmentEmitter {
   private:
     Emission emit_constant(math::SampleStream& stream) const;
     Emission emit_panorama(math::SampleStream& stream) const;
-    /// On the box's face across an axis, on its upper or lower side.
-    Vec3 on_face(std::size_t axis, bool is_upper, const std::array<double, 2>& u) const;
+    /// A particle through a point on a face of a box. `share`: of its flux, if all went through the scene's
+    /// box alone; `area_m2(box)`: what their density is in inverse proportion to.
+    template <typename Area>
+    Emission through(std::size_t entry, const Vec3& point, const Vec3& direction, const Rgb& share,
+                     const Area& area_m2) const;
     IncidentLight incident(const Vec3& from, const Vec3& direction, const Rgb& luminance,
                            double pdf_per_sr) const;
 
     EnvironmentLight light_;
-    Bounds box_;
+    std::vector<Entry> entries_;  ///< the first is the scene's box, in which all others lie
+    math::DiscreteDistribution choice_;
     Rgb flux_lm_;
     std::array<double, 6> illuminance_lx_{};  ///< luminous, about: of surfaces facing +x, -x, +y ...
 };

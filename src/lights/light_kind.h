@@ -6,6 +6,7 @@
 #include <array>
 #include <concepts>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -28,6 +29,12 @@ enum class LightLocation {
     infinity,  ///< rays that leave the scene see it
 };
 
+/// A box through which some of the particles of light from infinity go.
+struct Entry {
+    Bounds box;
+    double share = 1;  ///< of the particles
+};
+
 /// The part of the scene that lights depend on.
 class Surroundings {
   public:
@@ -38,6 +45,9 @@ class Surroundings {
     virtual std::string_view file(SolidId solid) const = 0;
     /// Bounds of all objects and point lights.
     virtual Bounds bounds() const = 0;
+    /// Where light from infinity should come in beside bounds(): boxes within these around the places that
+    /// matter most, all shares together less than 1.
+    virtual std::span<const Entry> entries() const = 0;
 };
 
 /// A particle that leaves a light.
@@ -46,6 +56,8 @@ struct Emission {
     Vec3 direction;
     /// Its flux over that of the light, band by band: 1 where particles are sampled in proportion to flux.
     Rgb share = Rgb::grey(1);
+    /// Particles like this one are so much more frequent than in proportion to their flux.
+    double favour = 1;
 };
 
 /// Light that arrives at a point from a sampled point or direction of a source, visibility left out.

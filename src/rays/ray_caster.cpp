@@ -101,6 +101,7 @@ struct MetObject {
 
 struct RayCaster::Implementation {
     const Scene& scene;
+    std::vector<Vec3> measured;
     bool sees_fine_things;
     Lift lift_rule;
     const Vec3& center = lift_rule.center();  ///< the origin of Embree's coordinates
@@ -116,8 +117,9 @@ struct RayCaster::Implementation {
     mutable std::once_flag sealed_once;         ///< is_sealed is found when it is asked for
     mutable std::vector<bool> is_sealed;        ///< sealed_sides()
 
-    Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> measured)
+    Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> points)
         : scene(s),
+          measured(points.begin(), points.end()),
           sees_fine_things(scene::sees_fine_things(s, measured)),
           lift_rule(scene::lift_of(s, measured, sees_fine_things)) {
         require_within_reach(s);
@@ -505,6 +507,7 @@ bool RayCaster::is_sealed(const Hit& hit) const {
 }
 
 const Scene& RayCaster::scene() const { return implementation_->scene; }
+std::span<const Vec3> RayCaster::measured() const { return implementation_->measured; }
 
 bool RayCaster::has_panes() const { return implementation_->has_panes; }
 

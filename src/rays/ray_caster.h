@@ -108,6 +108,8 @@ class RayCaster {
     Hit hit(const RayHitPacket& packet, std::size_t lane) const;
 
     const Scene& scene() const;
+    /// The points at which light is measured, as they were given.
+    std::span<const Vec3> measured() const;
     /// Whether segments may pass through surfaces (transmittance()).
     bool has_panes() const;
     /// True where a surface lies between two (lifted) points.

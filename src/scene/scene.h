@@ -57,18 +57,21 @@ struct Scene {
     const PhotometricSolid& solid(SolidId id) const { return solids[index_of(id)].solid; }
 };
 
-/// The scene as the lights' Surroundings. Keeps a reference.
+/// The scene as the lights' Surroundings. Keeps references.
 class LightSurroundings final : public lights::Surroundings {
   public:
-    explicit LightSurroundings(const Scene& scene) : scene_(scene) {}
+    explicit LightSurroundings(const Scene& scene, std::span<const lights::Entry> entries = {})
+        : scene_(scene), entries_(entries) {}
     const Shape& shape(ObjectId object) const override { return scene_.object(object).shape; }
     std::string_view name(ObjectId object) const override { return scene_.object(object).name; }
     const PhotometricSolid& solid(SolidId solid) const override { return scene_.solid(solid); }
     std::string_view file(SolidId solid) const override { return scene_.solids[index_of(solid)].file; }
     Bounds bounds() const override;
+    std::span<const lights::Entry> entries() const override { return entries_; }
 
   private:
     const Scene& scene_;
+    std::span<const lights::Entry> entries_;
 };
 
 /// Bounds of all objects and point lights; a point at the origin where there are none.

@@ -13,6 +13,7 @@
 #include "base/vec.h"
 #include "math/sampling.h"
 #include "stilb/error.h"
+#include "transport/entries.h"
 #include "transport/weak_lights.h"
 
 namespace stilb::transport {
@@ -43,7 +44,9 @@ void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCa
     const auto number = static_cast<std::uint32_t>(emitters_.size());
     flux_lm_.push_back(scene::flux_lm(scene, light));
     locations_.push_back(location_of(light));
-    emitters_.push_back(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift()));
+    std::vector<lights::Entry> entries;
+    if (locations_[number] == LightLocation::infinity) entries = entries_to(caster);
+    emitters_.push_back(lights::make_emitter(light, scene::LightSurroundings(scene, entries), caster.lift()));
     if (const auto object = lights::emitting_object(light)) light_of_object_[index_of(*object)] = number;
     if (locations_[number] == LightLocation::infinity) {
         if (outside_ != kNoLight) {
@@ -97,13 +100,13 @@ void LightSampler::set_choice_favours(const rays::RayCaster& caster) {
 
 EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const {
     const auto choice = by_emission_.choose(stream.next());
-    const auto [origin, direction, share] = emit(choice.index, stream);
+    const auto [origin, direction, share, favour] = emit(choice.index, stream);
     return {origin,
             direction,
             share * (flux_lm_[choice.index] * (1 / choice.probability)),
             is_point(choice.index),
             static_cast<std::uint32_t>(choice.index),
-            emission_favours_[choice.index]};
+            emission_favours_[choice.index] * favour};
 }
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,

@@ -28,7 +28,8 @@ struct EmittedParticle {
     Rgb flux_lm;
     bool from_point = false;  ///< from a light that no ray can hit
     std::uint32_t light = 0;  ///< of Scene::lights
-    double favour = 1;        ///< the light's share of particles over its share of the flux
+    /// The frequency of such particles over that in proportion to the flux.
+    double favour = 1;
 };
 
 /// All lights of a scene. The kinds of lights (lights/) define their light; the sampler chooses among lights.

@@ -230,6 +230,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/transport/direct/direct_light.h", "kChosen"},
         {"src/transport/direct/lamp_hull.cpp", "rounding"},
         {"src/transport/direct/open_lamps.cpp", "kEqualShare"},
+        {"src/transport/entries.cpp", "kMostWalks kPlaces kReflections kShareOfParts kRounding"},
         {"src/transport/glare/glare.cpp", "kSamples kLeastSamples"},
         {"src/transport/glare/glare.h", "kMostPositionIndex"},
         {"src/transport/glare/ugr_table.cpp", "kMostGamma_deg kFluxDirections negligible"},

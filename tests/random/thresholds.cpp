@@ -46,6 +46,14 @@ std::span<const Threshold> thresholds() {
         {"kMostLightSamples", "src/estimators/patch_light/first_shot/lights.h", "32",
          "points of a small lamp of first shot; a larger lamp emits from patches",
          "not crossed: no test has 31, 32 and 33 points"},
+        // Places that measured points see, for light paths of the sky.
+        {"kApart", "src/transport/entries.cpp", "1.0 / 8", "places: one group, or two",
+         "tests/transport/entries_test.cpp: rooms 1.1, 8/7 and 1.2 m apart"},
+        {"kMuchLess", "src/transport/entries.cpp", "8",
+         "a box: particles go through a part of it too, or not",
+         "tests/transport/entries_test.cpp: ratios of surfaces of 8, and a millionth more and less"},
+        {"kLeastPlaces", "src/transport/entries.cpp", "8", "places: enough for a part, or not",
+         "tests/transport/entries_test.cpp: 6, 9 and 12 places"},
         // Strengths of lamps.
         {"kComparable", "src/transport/weak_lights.cpp", "16",
          "strengths: comparable, or a weak lamp gets a share",

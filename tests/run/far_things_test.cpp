@@ -161,6 +161,62 @@ TEST(FarThings, LeaveARoomWithAWindowTheLightOfTheSky) {
     }
 }
 
+/// A court under the sky, or a room that is open to it above a parapet.
+void add_court(Scene& scene, const Vec3& at, bool has_roof) {
+    const Vec3 x{5, 0, 0}, y{0, 4, 0}, z{0, 0, 3};
+    add_object(scene, Rectangle{at, x, y}, diffuse(0.6));
+    add_object(scene, Rectangle{at, y, z}, diffuse(0.6));
+    add_object(scene, Rectangle{at + x, z, y}, diffuse(0.6));
+    add_object(scene, Rectangle{at + y, x, z}, diffuse(0.6));
+    add_object(scene, Rectangle{at, has_roof ? z / 3 : z, x}, diffuse(0.6));
+    if (has_roof) add_object(scene, Rectangle{at + z, y, x}, diffuse(0.6));
+    add_point_light(scene, at + Vec3{2, 2, 2.5}, Rgb::grey(100));
+}
+
+/// The methods by light paths find it themselves: with a lamp beside the sky they lost all reflected light of
+/// the sky, and their intervals, those of the lamp's light, had a width of 0.3 %.
+TEST(FarThings, LeaveCourtsTheReflectedLightOfTheSky) {
+    const std::vector<Vec3> places{{0, 0, 0}, {120, -15, 0}, {-3e3, 40, 7}};
+    for (const std::size_t courts : {1, 3}) {
+        for (const bool has_roof : {false, true}) {
+            Scene scene;
+            std::vector<Sensor> sensors;
+            for (std::size_t i = 0; i < courts; ++i) {
+                add_court(scene, places[i], has_roof);
+                sensors.push_back({std::to_string(i),
+                                   Grid{places[i] + Vec3{0.4, 0.4, 0.8}, {4.2, 0, 0}, {0, 3.2, 0}, {4, 4}}});
+            }
+            const auto means_of = [&](const Scene& measured, std::string_view method, std::uint64_t paths) {
+                RunOptions options;
+                options.method = method;
+                options.paths = paths;
+                std::vector<statistics::Estimate> means;
+                for (const SensorResult& sensor : measure(measured, sensors, options).sensors)
+                    means.push_back(sensor.summary.mean);
+                return means;
+            };
+            add_environment(scene, Rgb::grey(1000));
+            const auto right = means_of(scene, "path", 4096);
+            for (const double stray_m : {10.0, 100.0, 1e3, 1e5}) {
+                if (courts > 1 && stray_m < 1e3) continue;
+                Scene with_stray = scene;
+                add_object(with_stray, Rectangle{{stray_m, stray_m, 0}, {0.3, 0, 0}, {0, 0.3, 0}},
+                           diffuse(0.6));
+                for (const char* method : {"light-paths", "local"}) {
+                    const auto found = means_of(with_stray, method, 1 << 15);
+                    for (std::size_t i = 0; i < courts; ++i) {
+                        const double error = std::hypot(found[i].standard_error, right[i].standard_error);
+                        EXPECT_NEAR(found[i].value, right[i].value, 4 * error)
+                            << courts << ' ' << has_roof << ' ' << method << ' ' << stray_m << ' ' << i;
+                        EXPECT_LT(error, (has_roof ? 0.1 : 0.04) * right[i].value)
+                            << courts << ' ' << has_roof << ' ' << method << ' ' << stray_m << ' ' << i;
+                    }
+                }
+            }
+        }
+    }
+}
+
 TEST(FarThings, ARoomAtMapCoordinatesWithATriangleLeftAtTheOrigin) {
     const Vec3 map{3.5e6, 5.4e6, 120};
     const Mesh stray{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
