@@ -149,6 +149,49 @@ TEST(LampsInFront, AsFarAsTheRoomIsLarge) {
     }
 }
 
+double offset_of_room_m() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    return lift_of(scene).offset_m({2, 1.5, 2.8}, lift_of(scene).largest_size_m());
+}
+
+TEST(LampsInFront, OnlyThoseNearerThanTwoOffsetsMove) {
+    const double offset_m = offset_of_room_m();
+    for (const double offsets : {0.0, 1.0, 1.99, 2.01, 2.24, 2.26, 3.0}) {
+        const double z = 2.8 - offsets * offset_m;
+        const Scene scene = room_with_lamp(kRoom, panel_at(z));
+        const double expected_z = offsets < 2 ? 2.8 - 2 * offset_m : z;
+        EXPECT_NEAR(std::get<Rectangle>(scene.objects[1].shape).corner.z, expected_z, 1e-3 * offset_m)
+            << offsets;
+    }
+}
+
+/// A lamp so small that it lies within the offset of a ceiling at either angle.
+TEST(LampsInFront, OnlyThoseParallelToTheSurfaceMove) {
+    constexpr double size_m = 2e-4;
+    for (const double degrees : {0.0, 0.5, 0.52, 1.0}) {
+        const double angle = degrees * kPi / 180;
+        const Vec3 along = size_m * Vec3{std::cos(angle), 0, std::sin(angle)}, across{0, size_m, 0};
+        const Rectangle lamp{Vec3{2, 1.5, 2.8} - 0.5 * along, across, along};
+        const Rectangle moved = std::get<Rectangle>(room_with_lamp(kRoom, lamp).objects[1].shape);
+        EXPECT_EQ(moved.corner.z < lamp.corner.z - offset_of_room_m(), degrees < 0.51) << degrees;
+        EXPECT_EQ(moved.corner == lamp.corner, degrees > 0.51) << degrees;
+    }
+}
+
+/// From one offset above a floor to three below it, where a lamp that was put in front of it would hide it.
+TEST(LampsInFront, SensorsLieOnWhatIsWithinTheirOffsets) {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    const rays::RayCaster caster(scene);
+    for (const double offsets : {-4.0, -3.1, -2.9, -1.0, 0.0, 0.9, 1.1, 2.0}) {
+        const Vec3 position{2, 1.5, offsets * offset_of_room_m()};
+        const bool lies_on_floor = offsets > -3 && offsets < 1;
+        EXPECT_EQ(place_of(MeasuringPoint{position, {0, 0, 1}}, caster).surface.has_value(), lies_on_floor)
+            << offsets;
+    }
+}
+
 TEST(LampsInFront, TheSecondTimeNothingMoves) {
     Scene scene = room_with_lamp(kRoom, panel_at(2.8));
     const Vec3 once = std::get<Rectangle>(scene.objects[1].shape).corner;
