@@ -70,8 +70,9 @@ void change_projections(Draft& draft, Draw& draw) {
 
 /// A working plane, or the walls of the room.
 void add_sensor_of_room(Draft& draft, Draw& draw, const Site& site) {
-    // The points of rooms of ordinary size: smaller ones are none, larger ones have many.
-    if (!site.is_closed || site.size().z < 2 || site.size().x > 20 || site.size().y > 20) return;
+    // Rooms of ordinary size with a level floor: smaller ones are none, larger ones have many points.
+    const bool is_round = !draft.objects.empty() && draft.objects[0].text("shape") == "sphere";
+    if (!site.is_closed || is_round || site.size().z < 2 || site.size().x > 20 || site.size().y > 20) return;
     if (draw.chance(0.5)) {
         draft.add_sensor("plane")
             .set("height", number(draw.between(0, 0.4) * site.size().z))
