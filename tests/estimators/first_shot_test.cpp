@@ -349,7 +349,9 @@ TEST(FirstShot, NeedsFewerPixelsForManySamples) {
             [&](std::uint32_t side) { return reflected_from_middle(cube, fine, side); });
     };
     EXPECT_LT(error(4), error(1));
+    EXPECT_EQ(first_shot_resolution(12000, 15), first_shot_resolution(12000, 1));
     EXPECT_EQ(first_shot_resolution(12000, 16), first_shot_resolution(12000, 1));
+    EXPECT_LT(first_shot_resolution(12000, 17), first_shot_resolution(12000, 16));
     EXPECT_LT(first_shot_resolution(12000, 125), 0.52 * first_shot_resolution(12000, 16));
 }
 

@@ -1,5 +1,6 @@
 #include "estimators/patch_light/first_shot/factors.h"
 
+#include <fmt/format.h>
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
 
@@ -9,6 +10,7 @@
 #include <numeric>
 
 #include "patches/visibility/item_buffer.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {
@@ -71,25 +73,43 @@ class Shooter {
     std::vector<std::uint32_t> touched_;  ///< sides with flux
 };
 
+/// So many samples are shot between two looks at what they have stored.
+constexpr std::size_t kTogether = 256;
+
+void require_memory(std::size_t factors, std::size_t done, std::size_t samples) {
+    const double all =
+        static_cast<double>(factors) * static_cast<double>(samples) / static_cast<double>(done);
+    if (all <= double{kMostFactors}) return;
+    throw InputError(
+        fmt::format("first shot replaces the lights by {} points, whose light on all patches would take "
+                    "{:.2g} GB of memory, "
+                    "more than {:.2g} GB. Choose larger patches, or method auto, which needs none.",
+                    samples, all * sizeof(FirstShotFactors::Factor) * 1e-9,
+                    double{kMostFactors} * sizeof(FirstShotFactors::Factor) * 1e-9));
+}
+
 /// The sides seen from every sample. The result for a sample does not depend on other threads' work.
 std::vector<std::vector<Lit>> shoot_all(const patches::PatchCaster& caster,
                                         std::span<const LightSample> samples, const ShootingOptions& options,
                                         const Monitor& monitor) {
     std::vector<std::vector<Lit>> lit(samples.size());
     Stage stage(monitor, "first shot", samples.size());
-    if (options.backend == patches::BufferBackend::opengl) {  // one buffer at a time, the driver has threads
-        Shooter shooter(caster, options);
-        for (std::size_t i = 0; i < samples.size(); ++i) {
-            lit[i] = shooter.shoot(samples[i]);
-            stage.advance();
-        }
-        return lit;
-    }
     tbb::enumerable_thread_specific<Shooter> shooters([&] { return Shooter(caster, options); });
-    tbb::parallel_for(std::size_t{0}, samples.size(), [&](std::size_t i) {
+    const auto shoot = [&](std::size_t i) {
         lit[i] = shooters.local().shoot(samples[i]);
         stage.advance();
-    });
+    };
+    std::size_t factors = 0;
+    for (std::size_t first = 0; first < samples.size(); first += kTogether) {
+        const std::size_t end = std::min(first + kTogether, samples.size());
+        if (options.backend == patches::BufferBackend::opengl) {  // one at a time, the driver has threads
+            for (std::size_t i = first; i < end; ++i) shoot(i);
+        } else {
+            tbb::parallel_for(first, end, shoot);
+        }
+        for (std::size_t i = first; i < end; ++i) factors += lit[i].size();
+        require_memory(factors, end, samples.size());
+    }
     return lit;
 }
 

@@ -29,6 +29,9 @@ namespace stilb::estimators {
 /// sum stays the same. `samples`: their effective_number().
 int first_shot_resolution(std::size_t patches, double samples);
 
+/// 3.2 GB; they are held twice while they are put in order.
+inline constexpr std::size_t kMostFactors = 400'000'000;
+
 /// Rows of different lengths, one for each side, with the samples that see it.
 class FirstShotFactors {
   public:
@@ -38,7 +41,8 @@ class FirstShotFactors {
     };
 
     /// Fills a buffer around every sample, by rays with all threads. Throws InputError where the resolution
-    /// is invalid (ItemBufferLayout) and where OpenGL is missing; Cancelled as the monitor says.
+    /// is invalid (ItemBufferLayout), where OpenGL is missing, and where there would be more than
+    /// kMostFactors (as soon as the first samples show it); Cancelled as the monitor says.
     FirstShotFactors(const patches::PatchCaster& caster, std::span<const LightSample> samples,
                      const ShootingOptions& options, const Monitor& monitor = Monitor::none());
     /// The data that rows() and all() gave: rows ascend from 0 to the number of factors.

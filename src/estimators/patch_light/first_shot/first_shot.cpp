@@ -11,6 +11,22 @@
 #include "estimators/patch_light/patch_transport.h"
 
 namespace stilb::estimators {
+namespace {
+
+/// The patches that are not those of replaced lights: what these receive hardly matters, and a ball of light
+/// has 320 patches at least.
+std::size_t lit_patches(const Scene& scene, const patches::Patches& patches, const FirstShotLights& lights) {
+    const auto& first = patches.first_of_object;
+    std::size_t count = patches.count();
+    for (std::size_t i = 0; i < lights.lights.size(); ++i) {
+        const auto object = lights::emitting_object(scene.lights[i]);
+        if (object && lights.lights[i].is_replaced)
+            count -= first[index_of(*object) + 1] - first[index_of(*object)];
+    }
+    return count;
+}
+
+}  // namespace
 
 FirstShot::FirstShot(const Scene& scene, const rays::RayCaster& caster,
                      const transport::LightSampler& sampler, const patches::PatchCaster& patch_caster,
@@ -43,8 +59,10 @@ void FirstShot::set_up(const Scene& scene, const rays::RayCaster& caster,
         return;
     }
     ShootingOptions shooting = options.shooting;
-    if (shooting.resolution == ShootingOptions::kAutomatic)
-        shooting.resolution = first_shot_resolution(patches.count(), effective_number(scene, lights_));
+    if (shooting.resolution == ShootingOptions::kAutomatic) {
+        shooting.resolution =
+            first_shot_resolution(lit_patches(scene, patches, lights_), effective_number(scene, lights_));
+    }
     resolution_ = shooting.resolution;
     FirstShotFactors factors(patch_caster, lights_.samples, shooting, monitor);
     missed_ = count_missed(scene, caster, patches, lights_.samples, factors, shooting.resolution, monitor);
@@ -95,7 +113,7 @@ FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays
       options(asked),
       lights(scene, caster),
       size_m(options.patch_m.value_or(patches::patch_size_m(scene))),
-      patches(patches::make_patches(scene, size_m, monitor)),
+      patches(patches::make_patches(scene, size_m, monitor, caster.center())),
       patch_caster(patches),
       first_shot(scene, caster, lights, patch_caster, first_shot_options(options), monitor) {}
 

@@ -123,17 +123,17 @@ std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, cons
     // The pixel size in the middle of a cube's face, where pixels are largest.
     const double small_sr = 16. / (static_cast<double>(resolution) * resolution);
     const LineOfSightFollower follower(scene, caster, patches, samples, factors, small_sr);
-    const std::size_t sides = 2 * patches.count();
+    const std::size_t sides = 2 * patches.count(), step = 1 + sides * samples.size() / kMostPairs;
     constexpr std::size_t chunk = 256;
     std::atomic<std::size_t> count = 0;
     parallel_for((sides + chunk - 1) / chunk, [&](std::size_t number) {
         const std::size_t begin = number * chunk, end = std::min(begin + chunk, sides);
         monitor.report("first shot: sides without pixels",
                        static_cast<double>(begin) / static_cast<double>(sides));
-        for (std::size_t side = begin; side < end; ++side)
+        for (std::size_t side = (begin + step - 1) / step * step; side < end; side += step)
             count += follower.missed(static_cast<std::uint32_t>(side));
     });
-    return count;
+    return step * count;
 }
 
 }  // namespace stilb::estimators

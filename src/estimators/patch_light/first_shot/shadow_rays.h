@@ -106,8 +106,10 @@ class ShadowRays {
 
 // Detection of item buffers that were too coarse.
 
+inline constexpr std::size_t kMostPairs = 100'000'000;
 /// The number of pairs of a side and a light sample that has no pixel on it, though its light reaches the
-/// side's middle. Only sides of a few pixels' size are tested.
+/// side's middle. Only sides of a few pixels' size are tested, and of more than kMostPairs pairs those of
+/// every n-th side, which then stand for the others.
 std::size_t count_missed(const Scene& scene, const rays::RayCaster& caster, const patches::Patches& patches,
                          std::span<const LightSample> samples, const FirstShotFactors& factors,
                          int resolution, const Monitor& monitor);
