@@ -14,7 +14,7 @@ namespace {
 /// Without surfaces of a higher reflectance nothing needs a look.
 constexpr double kBright = 0.995;
 /// Rooms that lose a smaller share of their light at each reflection, on average, are named.
-constexpr double kLeastLoss = 0.0015;
+constexpr double kLeastLoss = 0.015;
 constexpr std::uint64_t kParticles = 64;
 constexpr int kReflections = 256;
 
@@ -98,8 +98,10 @@ std::vector<std::string> absorption_warnings(const Scene& scene, const rays::Ray
     if (!losses || losses->mean() >= kLeastLoss) return {};
     if (!(losses->mean() > 0)) return {endless_text(*losses, scene)};
     return {fmt::format(
-        "light is reflected about {:.2g} times before it is absorbed: the surfaces around the lamps (object "
-        "\"{}\", for one) reflect {:.6g} % of it on average. All values are in inverse proportion to the "
+        "light is reflected about {:.2g} times before it is absorbed or gets out: the surfaces around the "
+        "lamps "
+        "(object \"{}\", for one) keep {:.6g} % of it on average. All values are in inverse proportion to "
+        "the "
         "rest, {:.2g} %: the smallest error of a reflectance changes them much, and a run takes long. {}",
         1 / losses->mean(), most_met(*losses, scene), 100 * (1 - losses->mean()), 100 * losses->mean(),
         kRealSurfaces)};
