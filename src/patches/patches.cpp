@@ -93,10 +93,15 @@ void check_size(const Scene& scene, double longest_edge_m) {
     }
     const double about = surface_area_m2(scene) / (kMeanArea * longest_edge_m * longest_edge_m);
     if (about > static_cast<double>(kMostPatches)) {
+        const Object& largest =
+            std::ranges::max(scene.objects, {}, [](const Object& object) { return area_m2(object.shape); });
         throw InputError(fmt::format(
-            "a patch size of {} m would give about {:.1g} patches, more than the limit of {}. "
-            "Use {:.2g} m or more.",
-            longest_edge_m, about, kMostPatches, patch_size_m(scene, static_cast<double>(kMostPatches))));
+            "a patch size of {} m would give about {:.1g} patches, more than the limit of {}: object \"{}\" "
+            "has "
+            "{:.2g} % of the area. Leave it out if it matters to nothing, or use {:.2g} m or more.",
+            longest_edge_m, about, kMostPatches, largest.name,
+            100 * area_m2(largest.shape) / surface_area_m2(scene),
+            patch_size_m(scene, static_cast<double>(kMostPatches))));
     }
 }
 
@@ -131,12 +136,13 @@ std::vector<Division> divisions_of(const Scene& scene, double longest_edge_m) {
     return divisions;
 }
 
-Vec3 center_of(const std::vector<Division>& divisions) {
+Vec3 center_of(const std::vector<Division>& divisions, const std::optional<Vec3>& exact_at) {
     Bounds bounds;
     for (const Division& division : divisions) {
         for (const Vec3& vertex : division.coarse.vertices) bounds.include(vertex);
     }
-    return bounds.is_empty() ? Vec3{} : bounds.middle();
+    if (bounds.is_empty()) return {};
+    return exact_at && bounds.half_extent() > kLargeHalfExtent_m ? *exact_at : bounds.middle();
 }
 
 RefinedMesh refined(const Division& division) {
@@ -145,11 +151,12 @@ RefinedMesh refined(const Division& division) {
 
 }  // namespace
 
-Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor) {
+Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor,
+                     const std::optional<Vec3>& exact_at) {
     check_size(scene, longest_edge_m);
     const std::vector<Division> divisions = divisions_of(scene, longest_edge_m);
     Patches patches;
-    patches.center = center_of(divisions);
+    patches.center = center_of(divisions, exact_at);
     PatchCollector collector(patches);
     Stage stage(monitor, "patches", divisions.size());
     for (std::size_t i = 0; i < divisions.size(); ++i) {
@@ -248,7 +255,7 @@ std::size_t count_of(const std::vector<RefinedObject>& objects) {
 }  // namespace
 
 FinePatches make_fine_patches(const Scene& scene, double size_m, const LongestEdge& longest_edge_m,
-                              std::size_t most, const Monitor& monitor) {
+                              std::size_t most, const Monitor& monitor, const std::optional<Vec3>& exact_at) {
     constexpr std::uint64_t most_rounds = 8;
     std::vector<RefinedObject> objects = objects_of(scene, size_m);
     Stage stage(monitor, "finer patches", most_rounds * objects.size());
@@ -263,7 +270,7 @@ FinePatches make_fine_patches(const Scene& scene, double size_m, const LongestEd
     FinePatches fine;
     std::vector<Division> divisions;
     for (const RefinedObject& object : objects) divisions.push_back(object.division);
-    fine.patches.center = center_of(divisions);
+    fine.patches.center = center_of(divisions, exact_at);
     PatchCollector collector(fine.patches);
     for (std::size_t o = 0; o < objects.size(); ++o) {
         const RefinedObject& object = objects[o];

@@ -16,6 +16,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <vector>
 
 #include "base/ids.h"
@@ -40,7 +41,7 @@ inline constexpr std::uint32_t kNoSide = ~0u;
 /// In the order of the scene's objects and, in a mesh, of its triangles, so that neighbours in number are
 /// neighbours in space. About 40 bytes each.
 struct Patches {
-    Vec3 center;  ///< the origin of `vertices`: the middle of the bounding box
+    Vec3 center;  ///< the origin of `vertices`
     std::vector<Float3>
         vertices;  ///< [m], divided at creases (vertex_interpolation.h), so positions occur repeatedly
     std::vector<Triangle> corners;                  ///< per patch, of `vertices`
@@ -51,7 +52,7 @@ struct Patches {
 
     std::size_t count() const { return corners.size(); }
     ObjectId object_of(std::uint32_t patch) const;
-    /// In world coordinates [m], rounded to 2^-24 of the scene's size.
+    /// In world coordinates [m], rounded to 2^-24 of the distance from `center`.
     Vec3 position(std::uint32_t patch, const math::Barycentric& barycentric) const;
     Vec3 middle(std::uint32_t patch) const;
 
@@ -69,11 +70,15 @@ struct Patches {
 /// The longest edge of a sphere or of a disk's rim, over the radius, for any patch size.
 inline constexpr double kLongestCurvedEdge = 0.4;
 inline constexpr std::size_t kMostPatches = 100'000'000;
+/// In scenes of a larger half extent single precision is not enough everywhere, and things may lie far apart.
+inline constexpr double kLargeHalfExtent_m = 32;
 
-/// Patches whose edges are no longer than `longest_edge_m`; triangles without area are left out. Throws
+/// Patches whose edges are no longer than `longest_edge_m`; triangles without area are left out. Their centre
+/// is the middle of the bounding box; of large scenes (kLargeHalfExtent_m) it is `exact_at`, if given. Throws
 /// InputError where the size is not above 0, and where there would be more than about kMostPatches; Cancelled
 /// as the monitor says.
-Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor = Monitor::none());
+Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor = Monitor::none(),
+                     const std::optional<Vec3>& exact_at = {});
 
 /// The longest edge [m] that a part of a patch may have, by the patch's number and the corners of the part.
 /// Called in parallel.
@@ -85,9 +90,10 @@ struct FinePatches {
     std::vector<std::uint32_t> parents;  ///< per fine patch: the number of the coarse one
 };
 /// The patches of make_patches(scene, size_m), divided until no edge is longer than the limit of the patches
-/// that share it, or until there are about `most`.
+/// that share it, or until there are about `most`. `exact_at`: as above.
 FinePatches make_fine_patches(const Scene& scene, double size_m, const LongestEdge& longest_edge_m,
-                              std::size_t most, const Monitor& monitor = Monitor::none());
+                              std::size_t most, const Monitor& monitor = Monitor::none(),
+                              const std::optional<Vec3>& exact_at = {});
 
 /// Bounds of all vertices, relative to Patches::center [m].
 Bounds bounds_of(const Patches& patches);

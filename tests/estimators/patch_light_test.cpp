@@ -1,8 +1,12 @@
 // What methods for diffuse scenes light patches with: the balance of its flux.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "estimators/patch_light/particles/particles.h"
 #include "estimators/patch_light/radiosity/radiosity.h"
+#include "estimators/patch_light/ray_bundle/bundle_iteration.h"
+#include "stilb/error.h"
 #include "support/scene_builder.h"
 
 namespace stilb::estimators {
@@ -46,6 +50,27 @@ class LitRoom : public testing::Test {
     rays::RayCaster caster_{scene_};
     PatchOptions options_;
 };
+
+/// A walk that starts in darkness lacks r^n of the light after n steps: as a mean over as many more,
+/// r^m / (m (1 - r)).
+TEST(RayBundles, LeaveOutTheStepsThatLackLight) {
+    const auto steps = [](double reflectance) {
+        Scene scene;
+        add_object(scene, Box{{0, 0, 0}, {4, 4, 4}}, Diffuse{Rgb::grey(reflectance)});
+        add_point_light(scene, {2, 2, 2}, Rgb::grey(1));
+        const rays::RayCaster caster(scene);
+        PatchOptions options;
+        options.patch_m = 2;
+        return first_steps(PatchTransport(scene, caster, options));
+    };
+    for (const double r : {0.5, 0.99, 0.999, 0.9993}) {
+        const auto m = static_cast<double>(steps(r));
+        EXPECT_LT(std::pow(r, m) / (m * (1 - r)), 1.0001e-3) << r;
+        EXPECT_LT(m, 8192) << r;
+    }
+    EXPECT_THROW(steps(0.9994), InputError);
+    EXPECT_THROW(steps(1), InputError);
+}
 
 TEST_F(LitRoom, AbsorbsWhatRadiositySends) {
     const PatchTransport transport(scene_, caster_, options_);

@@ -288,6 +288,60 @@ TEST_P(BundlesOf, AClosedSceneLightEverySurfaceAlike) {
     }
 }
 
+/// A cube of 1 m above a ground of 2 km, and a sheet of 1 m far away: small patches and large ones. Each is
+/// crossed by lines that stand for its cross-section on average, whatever else there is, and the lines are
+/// about as many as the patches.
+TEST(Bundles, CrossThePatchesOfALargeSceneAsTheyNeed) {
+    for (const double far_m : {100.0, 1e4, 1e8}) {
+        Scene scene;
+        add_object(scene, inward({{0, 0, 0}, {1, 1, 1}}), diffuse(0.5));
+        add_object(scene, Rectangle{{-1000, -1000, -0.2}, {2000, 0, 0}, {0, 2000, 0}}, diffuse(0.5));
+        add_object(scene, Rectangle{{far_m, 0, 0}, {0, 1, 0}, {0, 0, 1}}, diffuse(0.5));
+        Patches patches = make_patches(scene, 100, Monitor::none(), Vec3{0.5, 0.5, 0});
+        ASSERT_LT(patches.count(), 5000u);
+        const PatchCaster caster(patches);
+        const auto bundles = make_bundles(BufferBackend::rays, caster);
+        RandomPairs random{7};
+        std::array<Moments, 3> crossed;  // of each object, over what is expected
+        Moments inside;                  // pairs of sides in the cube, over all that leave its inner sides
+        double lines = 0;
+        constexpr int directions = 2000;
+        for (int i = 0; i < directions; ++i) {
+            const auto [u1, u2] = random.next_pair();
+            const Frame frame = Frame::around(math::sample_sphere(u1, u2).direction);
+            std::array<double, 3> sums{}, expected{};
+            double pairs_m2 = 0;
+            bundles->cast({frame, 1, {random.next(), random.next()}}, [&](const CrossedLines& found) {
+                lines += static_cast<double>(found.count());
+                for (std::size_t n = 0; n < found.count(); ++n) {
+                    const auto sides = found.line(n).sides;
+                    for (const std::uint32_t side : sides)
+                        sums[index_of(patches.object_of(patches.patch_of(side)))] += found.line_area_m2();
+                }
+                for_each_pair(patches, found, [&](std::uint32_t sender, std::uint32_t receiver) {
+                    const auto is_inside = [&](std::uint32_t side) {
+                        return patches.is_front(side) && index_of(patches.object_of(side)) == 0;
+                    };
+                    if (is_inside(sender) && is_inside(receiver)) pairs_m2 += found.line_area_m2();
+                });
+            });
+            for (std::uint32_t p = 0; p < patches.count(); ++p) {
+                expected[index_of(patches.object_of(p))] +=
+                    patches.areas_m2[p] * std::abs(dot(frame.w, patches.normal_of(p)));
+            }
+            for (std::size_t o = 0; o < 3; ++o) crossed[o].add(sums[o] / expected[o]);
+            inside.add(pairs_m2 / (expected[0] / 2));
+        }
+        for (std::size_t o = 0; o < 3; ++o) {
+            if (o == 2 && far_m > 1e4) continue;  // single precision does not know its corners
+            EXPECT_LT(std::abs(crossed[o].z_score(1)), 4) << far_m << ": " << o << ": " << crossed[o].mean();
+            EXPECT_LT(crossed[o].standard_error(), 0.05) << far_m << ": " << o;
+        }
+        EXPECT_LT(std::abs(inside.z_score(1)), 4) << far_m << ": " << inside.mean();
+        EXPECT_LT(lines, 8. * directions * static_cast<double>(patches.count())) << far_m;
+    }
+}
+
 TEST_P(BundlesOf, AnythingCanBeCastOnSeveralThreads) {
     look_at(furnished_room(), 0.3);
     const Bundle bundle = random_bundle(0.03);

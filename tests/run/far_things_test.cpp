@@ -126,6 +126,45 @@ TEST(FarThings, ChangeNoReadingOfAClosedRoom) {
     }
 }
 
+/// Methods on patches, whose rays are spread over all surfaces: at map coordinates, beside things so far away
+/// that a grid of rays over all of them would never end, and beside a ground whose patches are much larger
+/// than the room.
+TEST(FarThings, ChangeNoReadingByPatchesOfAClosedRoom) {
+    const auto estimates = [](Scene scene, const Vec3& at, std::string_view method, double patch_m) {
+        scene::put_lamps_in_front(scene);
+        RunOptions options;
+        options.method = method;
+        options.paths = method == "particles" ? 1 << 18 : 1024;
+        options.patches.patch_m = patch_m;
+        options.patches.resolution = 128;
+        std::vector<statistics::Estimate> found;
+        for (const SensorResult& sensor : measure(scene, sensors_of_room(at), options).sensors) {
+            for (const Reading& reading : sensor.readings) found.push_back(reading.estimate);
+        }
+        return found;
+    };
+    const Vec3 map{3.5e6, 5.4e6, 120};
+    for (const std::string method : {"ray-bundle", "radiosity", "particles"}) {
+        const auto alone = estimates(furnished_room({}), {}, method, 1);
+        for (const Vec3& far : {Vec3{500, 0, 0}, Vec3{5000, 0, 0}, Vec3{-1e6, 1e5, 0}, Vec3{1e8, 1e8, 1e8}}) {
+            Scene scene = furnished_room({});
+            add_object(scene, Rectangle{far, {4, 0, 0}, {0, 4, 0}}, diffuse(0.5));
+            expect_unchanged(estimates(scene, {}, method, 1), alone, false,
+                             fmt::format("{}, {} m", method, length(far)));
+        }
+        Scene at_map = furnished_room(map);
+        add_object(at_map, Mesh{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}}, diffuse(0.5));
+        expect_unchanged(estimates(at_map, map, method, 1), alone, false, method + ", at map coordinates");
+        Scene on_ground = furnished_room({});
+        add_object(on_ground, Rectangle{{-5e5, -5e5, -0.2}, {1e6, 0, 0}, {0, 1e6, 0}}, diffuse(0.5));
+        const auto beside = estimates(on_ground, {}, method, 5e4);
+        expect_unchanged(beside, estimates(furnished_room({}), {}, method, 5e4), false,
+                         method + ", on a ground of 1000 km");
+        for (const statistics::Estimate& estimate : beside)
+            EXPECT_LT(estimate.standard_error, 0.05 * estimate.value) << method;
+    }
+}
+
 /// Light paths of the sky start around the whole scene: beside a stray thing a kilometre away hardly one
 /// finds a room. A method that finds clearly less light than path tracing is not taken.
 TEST(FarThings, LeaveARoomWithAWindowTheLightOfTheSky) {
@@ -349,6 +388,30 @@ TEST(FarThings, LargeHallsLoseNoLightOfTheirWalls) {
             Hall(half_m, thickness_m)
                 .expect_exact({point_sensor({{places[0], kUp}, {places[1], kUp}})}, places,
                               fmt::format("walls of {} m", thickness_m));
+        }
+    }
+}
+
+/// Up to 64 m bundles have one grid of lines, from there on cells.
+TEST(FarThings, HallsAreAsBrightByRayBundlesBelowAndAbove64m) {
+    for (const double half_m : {31.9, 32.0, 32.1}) {
+        const Hall hall(half_m, 0);
+        RunOptions options;
+        options.method = "ray-bundle";
+        options.paths = 1024;
+        options.patches.patch_m = 8;
+        const Sensor points =
+            point_sensor({{{0, 0, -half_m}, kUp}, {{half_m / 2, half_m / 2, -half_m}, kUp}});
+        const auto readings = measure(hall.scene, {&points, 1}, options).sensors[0].readings;
+        const exact::DiffuseCube cube(2 * half_m, hall.flux_lm);
+        for (std::size_t i = 0; i < 2; ++i) {
+            const double xy_m = i == 0 ? 0 : half_m / 2;
+            const double exact_lx =
+                cube.direct_illuminance_lx(xy_m, xy_m) + cube.indirect_illuminance_lx(0.5, xy_m, xy_m);
+            EXPECT_NEAR(readings[i].estimate.value, exact_lx,
+                        0.01 * exact_lx + 4 * readings[i].estimate.standard_error)
+                << half_m << ' ' << i;
+            EXPECT_LT(readings[i].estimate.standard_error, 0.01 * exact_lx);
         }
     }
 }

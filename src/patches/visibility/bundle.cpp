@@ -18,22 +18,32 @@ constexpr double kRelativeTolerance = 0x1p-19;
 /// The cosine below which surfaces count as edge-on: they are crossed too seldom to matter.
 constexpr double kLeastCosine = 1e-3;
 
+double largest_coordinate(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
+
 }  // namespace
 
-CoincidentCrossings::CoincidentCrossings(const Patches& patches, const Bounds& bounds, const Vec3& direction)
-    : patches_(patches), direction_(direction), tolerance_m_(kRelativeTolerance * bounds.half_extent()) {}
-
-void CoincidentCrossings::remove_from(std::vector<Crossing>& crossings) const {
-    const auto same = [&](const Crossing& before, const Crossing& after) { return is_same(before, after); };
+void CoincidentCrossings::remove_from(std::vector<Crossing>& crossings, double half_extent_m) const {
+    const auto same = [&](const Crossing& before, const Crossing& after) {
+        return is_same(before, after, half_extent_m);
+    };
     crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
 }
 
-bool CoincidentCrossings::is_same(const Crossing& before, const Crossing& after) const {
+void CoincidentCrossings::remove_from(std::vector<Crossing>& crossings, const Vec3& origin) const {
+    const auto same = [&](const Crossing& before, const Crossing& after) {
+        const Vec3 at = origin + double{after.distance} * direction_;
+        return is_same(before, after, std::max(largest_coordinate(origin), largest_coordinate(at)));
+    };
+    crossings.erase(std::unique(crossings.begin(), crossings.end(), same), crossings.end());
+}
+
+bool CoincidentCrossings::is_same(const Crossing& before, const Crossing& after, double coordinate_m) const {
     const double gap_m = double{after.distance} - double{before.distance};
+    const double tolerance_m = kRelativeTolerance * coordinate_m;
     // Comparing all normals takes time, and most crossings are far apart.
-    if (gap_m * kLeastCosine > tolerance_m_) return false;
+    if (gap_m * kLeastCosine > tolerance_m) return false;
     return patches_.is_front(before.side) == patches_.is_front(after.side) &&
-           gap_m * std::abs(dot(direction_, patches_.normal_of(after.side))) <= tolerance_m_;
+           gap_m * std::abs(dot(direction_, patches_.normal_of(after.side))) <= tolerance_m;
 }
 
 namespace {
@@ -48,15 +58,16 @@ double half_extent_along(const Vec3& axis, const Vec3& half) {
 int line_count(double extent_m, double spacing_m) {
     const double count = std::ceil(extent_m / spacing_m);
     if (spacing_m > 0 && count <= kMostLines) return static_cast<int>(count);
-    throw InputError(
-        fmt::format("the spacing of a bundle's rays is {} m, too small to cover {} m by at most {} rays. Use "
-                    "{:.2g} m or more.",
-                    spacing_m, extent_m, kMostLines, extent_m / kMostLines));
+    throw InputError(fmt::format(
+        "the spacing of a bundle's rays is {:.3g} m, too small to cover {:.4g} m by at most {} rays. Use "
+        "larger patches, for a spacing of {:.2g} m or more.",
+        spacing_m, extent_m, kMostLines, extent_m / kMostLines));
 }
 
 }  // namespace
 
-void CrossedLines::clear() {
+void CrossedLines::start(double line_area_m2) {
+    line_area_m2_ = line_area_m2;
     origins_.clear();
     first_crossing_.resize(1);
     sides_.clear();
@@ -85,7 +96,18 @@ LineGrid::LineGrid(const Bounds& bounds, const Bundle& bundle) {
     step_y = bundle.spacing_m * v;
     first =
         middle - half_u * u - half_v * v - half_w * w + bundle.offset[0] * step_x + bundle.offset[1] * step_y;
+    line_area_m2 = bundle.spacing_m * bundle.spacing_m;
     depth_m = 2 * half_w;
+}
+
+LineGrid::LineGrid(const LineCell& cell, const Bundle& bundle) : width(cell.lines[0]), height(cell.lines[1]) {
+    const auto& [u, v, w] = bundle.frame;
+    const double step_u = cell.size(0) / width, step_v = cell.size(1) / height;
+    step_x = step_u * u;
+    step_y = step_v * v;
+    first = cell.min[0] * u + cell.min[1] * v + cell.start_m * w + bundle.offset[0] * step_x +
+            bundle.offset[1] * step_y;
+    line_area_m2 = step_u * step_v;
 }
 
 namespace {
@@ -93,65 +115,77 @@ namespace {
 /// A packet is a square of the grid, whose rays are the most coherent.
 constexpr int kTile = 4;
 static_assert(kTile * kTile == kPacketWidth);
+static_assert(kTile == LineCell::kMostAlongEdge);
 
-/// The parallel rays of a tile.
-class GridRays {
+/// Casts the parallel rays of tiles.
+class TileCaster {
   public:
-    GridRays(const LineGrid& grid, const Vec3& direction) : grid_(grid) {
+    TileCaster(const PatchCaster& caster, const Vec3& direction) : caster_(caster), direction_(direction) {
         template_.direction_x.fill(packet_direction(direction.x));
         template_.direction_y.fill(packet_direction(direction.y));
         template_.direction_z.fill(packet_direction(direction.z));
         template_.end.fill(std::numeric_limits<float>::infinity());
     }
 
-    Vec3 origin(int x0, int y0, int lane) const { return grid_.origin(x0 + lane % kTile, y0 + lane / kTile); }
-
-    RayPacket packet(int x0, int y0) const {
-        RayPacket rays = template_;
-        for (int lane = 0; lane < kPacketWidth; ++lane) {
-            const Vec3 from = origin(x0, y0, lane);
-            rays.origin_x[lane] = static_cast<float>(from.x);
-            rays.origin_y[lane] = static_cast<float>(from.y);
-            rays.origin_z[lane] = static_cast<float>(from.z);
-        }
-        return rays;
-    }
-
-    /// The lanes that are on the grid.
-    LaneMask lanes(int x0, int y0) const {
+    /// The lines of the tile whose first line is (x0, y0), as far as they are on the grid.
+    /// `reach_of(origin)` is what CoincidentCrossings::remove_from takes for a line.
+    template <typename Reach>
+    const CrossedLines& cast(const LineGrid& grid, int x0, int y0, const Reach& reach_of) {
+        RayPacket packet = template_;
         LaneMask lanes{};
+        std::array<Vec3, kPacketWidth> origins;
         for (int lane = 0; lane < kPacketWidth; ++lane) {
-            const bool is_on_grid = x0 + lane % kTile < grid_.width && y0 + lane / kTile < grid_.height;
-            lanes[lane] = is_on_grid ? -1 : 0;
+            const int x = x0 + lane % kTile, y = y0 + lane / kTile;
+            const Vec3 from = origins[lane] = grid.origin(x, y);
+            packet.origin_x[lane] = static_cast<float>(from.x);
+            packet.origin_y[lane] = static_cast<float>(from.y);
+            packet.origin_z[lane] = static_cast<float>(from.z);
+            lanes[lane] = x < grid.width && y < grid.height ? -1 : 0;
         }
-        return lanes;
+        caster_.all(packet, lanes, crossings_);
+        lines_.start(grid.line_area_m2);
+        for (int lane = 0; lane < kPacketWidth; ++lane) {
+            coincident_.remove_from(crossings_[lane], reach_of(origins[lane]));
+            lines_.add(caster_.patches().center + origins[lane], crossings_[lane]);
+        }
+        return lines_;
     }
 
   private:
-    const LineGrid& grid_;
+    const PatchCaster& caster_;
+    Vec3 direction_;
     RayPacket template_;
+    CoincidentCrossings coincident_{caster_.patches(), direction_};
+    PacketCrossings crossings_;
+    CrossedLines lines_;
 };
 
 }  // namespace
 
 void RayBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {
+    return bounds_.half_extent() > kLargeHalfExtent_m ? cast_cells(bundle, visit)
+                                                      : cast_uniform(bundle, visit);
+}
+
+void RayBundles::cast_uniform(const Bundle& bundle, const LineVisitor& visit) const {
     const LineGrid grid(bounds_, bundle);
-    const Patches& patches = caster_.patches();
-    const GridRays rays(grid, bundle.frame.w);
-    const CoincidentCrossings coincident(patches, bounds_, bundle.frame.w);
-    PacketCrossings crossings;
-    CrossedLines lines;
+    TileCaster tiles(caster_, bundle.frame.w);
+    const double half_extent_m = bounds_.half_extent();
     for (int y = 0; y < grid.height; y += kTile) {
         for (int x = 0; x < grid.width; x += kTile) {
-            caster_.all(rays.packet(x, y), rays.lanes(x, y), crossings);
-            lines.clear();
-            for (int lane = 0; lane < kPacketWidth; ++lane) {
-                coincident.remove_from(crossings[lane]);
-                lines.add(patches.center + rays.origin(x, y, lane), crossings[lane]);
-            }
+            const CrossedLines& lines = tiles.cast(grid, x, y, [&](const Vec3&) { return half_extent_m; });
             if (lines.count() > 0) visit(lines);
         }
     }
+}
+
+void RayBundles::cast_cells(const Bundle& bundle, const LineVisitor& visit) const {
+    TileCaster tiles(caster_, bundle.frame.w);
+    LineCells(caster_.patches(), bundle.frame).for_each([&](const LineCell& cell) {
+        const CrossedLines& lines =
+            tiles.cast(LineGrid(cell, bundle), 0, 0, [](const Vec3& origin) { return origin; });
+        if (lines.count() > 0) visit(lines);
+    });
 }
 
 std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& caster) {

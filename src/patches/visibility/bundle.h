@@ -2,10 +2,11 @@
 // [FirstShot section 5]; the lines of a random direction are "global lines").
 //
 // The rays of a bundle stand on a square grid across its direction, so each counts for a cross-section of
-// spacing^2. Where the grid's offset is uniform over a square of the grid, sums over lines are unbiased: a
-// patch is crossed by |n . w| A / spacing^2 lines on average. With the direction uniform over the sphere too,
-// the mean cross-section of the lines that lead from side i straight to side j is A_i F_ij / 4, F_ij being
-// the form factor: of all directions' 4 pi it is the share that pi A_i F_ij takes.
+// spacing^2 (in large scenes on several grids). Where the grid's offset is uniform over a square of the grid,
+// sums over lines are unbiased: a patch is crossed by |n . w| A / spacing^2 lines on average. With the
+// direction uniform over the sphere too, the mean cross-section of the lines that lead from side i straight
+// to side j is A_i F_ij / 4, F_ij being the form factor: of all directions' 4 pi it is the share that pi A_i
+// F_ij takes.
 #pragma once
 
 #include <array>
@@ -19,6 +20,7 @@
 #include "base/vec.h"
 #include "patches/patches.h"
 #include "patches/visibility/buffer_options.h"
+#include "patches/visibility/line_cells.h"
 #include "patches/visibility/patch_caster.h"
 
 namespace stilb::patches {
@@ -26,28 +28,30 @@ namespace stilb::patches {
 // Rays that go through the edge between two patches meet both of them, though they cross one surface.
 
 /// Merges crossings of one surface at an edge between patches: where the next crossing has the same
-/// orientation (both fronts or both backs) and lies no farther behind than 2^-19 of half the bounding box,
+/// orientation (both fronts or both backs) and lies no farther behind than 2^-19 of the largest coordinate,
 /// measured across the patch. Otherwise the two patches would see each other, one from its wrong side.
 /// Thicker bodies keep both sides, and so do all closed bodies, however thin, because their two sides have
 /// different orientations.
 class CoincidentCrossings {
   public:
     /// For rays along a unit vector. Keeps a reference to the patches.
-    CoincidentCrossings(const Patches& patches, const Bounds& bounds, const Vec3& direction);
-    /// `crossings` are in the order of distances.
-    void remove_from(std::vector<Crossing>& crossings) const;
+    CoincidentCrossings(const Patches& patches, const Vec3& direction)
+        : patches_(patches), direction_(direction) {}
+    /// `crossings` are in the order of distances. `half_extent_m` is the largest coordinate of all patches.
+    void remove_from(std::vector<Crossing>& crossings, double half_extent_m) const;
+    /// The same for a ray from `origin`, relative to Patches::center: its own coordinates count.
+    void remove_from(std::vector<Crossing>& crossings, const Vec3& origin) const;
 
   private:
-    bool is_same(const Crossing& before, const Crossing& after) const;
+    bool is_same(const Crossing& before, const Crossing& after, double coordinate_m) const;
 
     const Patches& patches_;
     Vec3 direction_;
-    double tolerance_m_;
 };
 
 struct Bundle {
-    Frame frame;                     ///< w: direction of the rays; u and v: the axes of the grid
-    double spacing_m = 0;            ///< of neighbouring rays
+    Frame frame;           ///< w: direction of the rays; u and v: the axes of the grid
+    double spacing_m = 0;  ///< of neighbouring rays; in scenes of more than 64 m the patches decide on it
     std::array<double, 2> offset{};  ///< of the grid along u and v, in spacings; in [0, 1)
 };
 
@@ -62,17 +66,21 @@ struct CrossedLine {
 /// Lines of a bundle; lines without crossings are left out.
 class CrossedLines {
   public:
+    /// The cross-section that each line stands for.
+    double line_area_m2() const { return line_area_m2_; }
     std::size_t count() const { return origins_.size(); }
     CrossedLine line(std::size_t i) const {
         const std::size_t first = first_crossing_[i], n = first_crossing_[i + 1] - first;
         return {origins_[i], std::span(sides_).subspan(first, n), std::span(distances_m_).subspan(first, n)};
     }
 
-    void clear();
+    /// Forgets all lines; those to come stand for another cross-section each.
+    void start(double line_area_m2);
     /// Adds a line, unless it crosses nothing.
     void add(const Vec3& origin, std::span<const Crossing> crossings);
 
   private:
+    double line_area_m2_ = 0;
     std::vector<Vec3> origins_;
     std::vector<std::size_t> first_crossing_{0};  ///< per line, and the number of crossings at the end
     std::vector<std::uint32_t> sides_;
@@ -102,7 +110,7 @@ class Bundles {
 
     /// Passes all lines with crossings to `visit`, each once, on the calling thread. Throws InputError
     /// where the spacing is not above 0, or so small that there would be more than kMostLines along an edge
-    /// of the grid.
+    /// of a uniform grid.
     virtual void cast(const Bundle& bundle, const LineVisitor& visit) const = 0;
 };
 
@@ -112,21 +120,29 @@ std::unique_ptr<Bundles> make_bundles(BufferBackend backend, const PatchCaster& 
 
 inline constexpr int kMostLines = 65'536;
 
-/// The lines of a bundle: enough to cover the projection of the patches' bounding box. Line
+/// The lines of a uniform grid: enough to cover the projection of the patches' bounding box. Line
 /// (x, y) begins at `first` + x `step_x` + y `step_y`.
 struct LineGrid {
     Vec3 first, step_x, step_y;  ///< relative to Patches::center
     int width = 0, height = 0;
-    double depth_m = 0;  ///< all patches are nearer
+    double line_area_m2 = 0;  ///< the cross-section that each line stands for
+    double depth_m = 0;       ///< of the bounding box: all patches are nearer
 
     /// Throws as Bundles::cast.
     LineGrid(const Bounds& bounds, const Bundle& bundle);
+    /// Those of one cell.
+    LineGrid(const LineCell& cell, const Bundle& bundle);
     Vec3 origin(int x, int y) const { return first + x * step_x + y * step_y; }
 };
 
 // Bundles by rays.
 
 /// Casts may run in parallel, each on its thread. Keeps a reference to the caster.
+///
+/// Most scenes have a uniform grid. In scenes of more than 64 m it would have any number of lines between
+/// things that lie far apart, and small patches beside large ones would meet none: there the plane across the
+/// lines is divided into cells as the patches are (line_cells.h), each with a grid as fine as its patches
+/// need.
 class RayBundles : public Bundles {
   public:
     explicit RayBundles(const PatchCaster& caster) : caster_(caster), bounds_(bounds_of(caster.patches())) {}
@@ -134,6 +150,9 @@ class RayBundles : public Bundles {
     void cast(const Bundle& bundle, const LineVisitor& visit) const override;
 
   private:
+    void cast_uniform(const Bundle& bundle, const LineVisitor& visit) const;
+    void cast_cells(const Bundle& bundle, const LineVisitor& visit) const;
+
     const PatchCaster& caster_;
     Bounds bounds_;
 };

@@ -184,17 +184,18 @@ const std::string& OpenGlBundles::renderer() const { return implementation_->dra
 void OpenGlBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {
     const OpenGlPatches& drawing = implementation_->drawing;
     const LineGrid grid(implementation_->bounds, bundle);
-    const CoincidentCrossings coincident(drawing.patches(), implementation_->bounds, bundle.frame.w);
+    const CoincidentCrossings coincident(drawing.patches(), bundle.frame.w);
+    const double half_extent_m = implementation_->bounds.half_extent();
     std::vector<Crossing> crossings;
     CrossedLines row;
     for (const Tile& tile : tiles_of(grid)) {
         const std::vector<Layer> layers = implementation_->draw(grid, bundle.frame, tile);
         std::size_t pixel = 0;
         for (int y = tile.y; y < tile.y + tile.height; ++y) {
-            row.clear();
+            row.start(grid.line_area_m2);
             for (int x = tile.x; x < tile.x + tile.width; ++x, ++pixel) {
                 collect(layers, pixel, grid.depth_m, crossings);
-                coincident.remove_from(crossings);
+                coincident.remove_from(crossings, half_extent_m);
                 row.add(drawing.patches().center + grid.origin(x, y), crossings);
             }
             if (row.count() > 0) visit(row);

@@ -1,11 +1,14 @@
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
 #include "math/random.h"
+#include "stilb/error.h"
 
 namespace stilb::estimators {
 namespace {
@@ -99,12 +102,15 @@ void BundleIteration::step() {
 /// averaged over m steps, r^m / (m (1 - r)).
 std::uint64_t first_steps(const PatchTransport& transport) {
     constexpr double most_missing = 1e-3;
-    constexpr std::uint64_t most_steps = 512;
+    constexpr std::uint64_t most_steps = 8192;
     const double r = transport.mean_reflectance;
     std::uint64_t steps = 1;
-    while (steps < most_steps &&
-           std::pow(r, static_cast<double>(steps)) > most_missing * static_cast<double>(steps) * (1 - r)) {
-        ++steps;
+    while (std::pow(r, static_cast<double>(steps)) > most_missing * static_cast<double>(steps) * (1 - r)) {
+        if (++steps <= most_steps) continue;
+        throw InputError(fmt::format(
+            "the surfaces reflect {:.5g} % of the light on average: ray bundles would take more than "
+            "{} steps before all reflections are there. Lower the reflectances, or use method auto.",
+            100 * r, most_steps));
     }
     return steps;
 }
@@ -157,11 +163,11 @@ void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) 
     const patches::Patches& patches = transport_.patches;
     const bool both_ways = transport_.options.directions != BundleDirections::single;
     const Vec3& along = bundle.frame.w;
-    const double ray_area_m2 = bundle.spacing_m * bundle.spacing_m;
     const bool has_outside = transport_.lights.has_light_from_outside();
     const FloatRgb from_behind = to_float_rgb(transport_.lights.outside_luminance(-along));
     const FloatRgb from_ahead = to_float_rgb(transport_.lights.outside_luminance(along));
     transport_.bundles->cast(bundle, [&](const patches::CrossedLines& lines) {
+        const double ray_area_m2 = lines.line_area_m2();
         for (std::size_t n = 0; n < lines.count(); ++n) {
             const patches::CrossedLine line = lines.line(n);
             for (std::size_t i = 0; i + 1 < line.sides.size(); ++i) {

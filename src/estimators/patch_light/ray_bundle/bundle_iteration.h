@@ -118,7 +118,7 @@ void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) c
 }
 
 /// Steps to leave out of a walk's mean: the light that they lack is less than 1e-3 in a mean over
-/// as many more.
+/// as many more. Throws InputError where reflectances are so close to 1 that there would be more than 8192.
 std::uint64_t first_steps(const PatchTransport& transport);
 
 }  // namespace stilb::estimators

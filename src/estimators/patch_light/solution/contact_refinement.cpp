@@ -81,7 +81,8 @@ patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const S
         }
         return std::max(limit_m, kLeastShareOfSize * coarse.size_m);
     };
-    return patches::make_fine_patches(coarse.scene, coarse.size_m, longest_edge_m, most, monitor);
+    return patches::make_fine_patches(coarse.scene, coarse.size_m, longest_edge_m, most, monitor,
+                                      coarse.patches.center);
 }
 
 }  // namespace stilb::estimators
