@@ -342,6 +342,34 @@ TEST(Bundles, CrossThePatchesOfALargeSceneAsTheyNeed) {
     }
 }
 
+/// A box of 5 cm with a sheet 1 m and 60 m away: on one grid the lines between them would be millions.
+TEST(Bundles, HaveNoMoreLinesWhereLittleIsInALargeSpace) {
+    for (const double far_m : {1.0, 60.0}) {
+        Scene scene;
+        add_object(scene, inward({{0, 0, 0}, {0.05, 0.05, 0.05}}), diffuse(0.5));
+        add_object(scene, Rectangle{{far_m, 0, 0}, {0, 0.05, 0}, {0, 0, 0.05}}, diffuse(0.5));
+        const Patches patches = make_patches(scene, 0.005);
+        const PatchCaster caster(patches);
+        const auto bundles = make_bundles(BufferBackend::rays, caster);
+        RandomPairs random{11};
+        Moments pairs;
+        for (int i = 0; i < 200; ++i) {
+            const auto [u1, u2] = random.next_pair();
+            const Frame frame = Frame::around(math::sample_sphere(u1, u2).direction);
+            double crossed_m2 = 0, expected_m2 = 0;
+            bundles->cast({frame, 1e-4, {random.next(), random.next()}}, [&](const CrossedLines& lines) {
+                for (std::size_t n = 0; n < lines.count(); ++n)
+                    crossed_m2 += lines.line_area_m2() * static_cast<double>(lines.line(n).sides.size());
+            });
+            for (std::uint32_t p = 0; p < patches.count(); ++p)
+                expected_m2 += patches.areas_m2[p] * std::abs(dot(frame.w, patches.normal_of(p)));
+            pairs.add(crossed_m2 / expected_m2);
+        }
+        EXPECT_LT(std::abs(pairs.z_score(1)), 4) << far_m << ": " << pairs.mean();
+        EXPECT_LT(pairs.standard_error(), 0.005) << far_m;
+    }
+}
+
 TEST_P(BundlesOf, AnythingCanBeCastOnSeveralThreads) {
     look_at(furnished_room(), 0.3);
     const Bundle bundle = random_bundle(0.03);

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "patches/visibility/opengl.h"
 #include "stilb/error.h"
@@ -17,6 +18,8 @@ namespace {
 constexpr double kRelativeTolerance = 0x1p-19;
 /// The cosine below which surfaces count as edge-on: they are crossed too seldom to matter.
 constexpr double kLeastCosine = 1e-3;
+/// The square of a scene's size over the area of its surfaces above which there are cells.
+constexpr double kSparse = 32;
 
 double largest_coordinate(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
@@ -162,9 +165,15 @@ class TileCaster {
 
 }  // namespace
 
+RayBundles::RayBundles(const PatchCaster& caster) : caster_(caster), bounds_(bounds_of(caster.patches())) {
+    const std::vector<float>& areas_m2 = caster.patches().areas_m2;
+    const double area_m2 = std::accumulate(areas_m2.begin(), areas_m2.end(), 0.0);
+    const double extent_m = 2 * bounds_.half_extent();
+    has_cells_ = extent_m > 2 * kLargeHalfExtent_m || extent_m * extent_m > kSparse * area_m2;
+}
+
 void RayBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {
-    return bounds_.half_extent() > kLargeHalfExtent_m ? cast_cells(bundle, visit)
-                                                      : cast_uniform(bundle, visit);
+    return has_cells_ ? cast_cells(bundle, visit) : cast_uniform(bundle, visit);
 }
 
 void RayBundles::cast_uniform(const Bundle& bundle, const LineVisitor& visit) const {

@@ -139,13 +139,13 @@ struct LineGrid {
 
 /// Casts may run in parallel, each on its thread. Keeps a reference to the caster.
 ///
-/// Most scenes have a uniform grid. In scenes of more than 64 m it would have any number of lines between
-/// things that lie far apart, and small patches beside large ones would meet none: there the plane across the
-/// lines is divided into cells as the patches are (line_cells.h), each with a grid as fine as its patches
-/// need.
+/// Most scenes have a uniform grid. In scenes of more than 64 m, and of little area for their size, it would
+/// have any number of lines between things that lie far apart, and small patches beside large ones would meet
+/// none: there the plane across the lines is divided into cells as the patches are (line_cells.h), each with
+/// a grid as fine as its patches need.
 class RayBundles : public Bundles {
   public:
-    explicit RayBundles(const PatchCaster& caster) : caster_(caster), bounds_(bounds_of(caster.patches())) {}
+    explicit RayBundles(const PatchCaster& caster);
 
     void cast(const Bundle& bundle, const LineVisitor& visit) const override;
 
@@ -155,6 +155,7 @@ class RayBundles : public Bundles {
 
     const PatchCaster& caster_;
     Bounds bounds_;
+    bool has_cells_;
 };
 
 }  // namespace stilb::patches
