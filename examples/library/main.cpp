@@ -30,7 +30,7 @@ int main() try {
     options.error = 0.01;
     const stilb::Result result = stilb::measure(scene, options);
     const stilb::Estimate& mean = result["desk"].mean;
-    std::printf("desk: %.1f lx, 95 %% interval %.1f to %.1f lx\n", mean.value, mean.lower, mean.upper);
+    std::printf("desk: %.2f lx, 95 %% interval %.2f to %.2f lx\n", mean.value, mean.lower, mean.upper);
 
     options = {};
     options.samples = 16;

@@ -99,10 +99,9 @@ std::vector<std::string> absorption_warnings(const Scene& scene, const rays::Ray
     if (!(losses->mean() > 0)) return {endless_text(*losses, scene)};
     return {fmt::format(
         "light is reflected about {:.2g} times before it is absorbed or gets out: the surfaces around the "
-        "lamps "
-        "(object \"{}\", for one) keep {:.6g} % of it on average. All values are in inverse proportion to "
-        "the "
-        "rest, {:.2g} %: the smallest error of a reflectance changes them much, and a run takes long. {}",
+        "lamps (object \"{}\", for one) keep {:.6g} % of it on average. All values are in inverse proportion "
+        "to the rest, {:.2g} %: the smallest error of a reflectance changes them much, and a run takes long. "
+        "{}",
         1 / losses->mean(), most_met(*losses, scene), 100 * (1 - losses->mean()), 100 * losses->mean(),
         kRealSurfaces)};
 }

@@ -79,8 +79,9 @@ struct Batch {
 
 /// The sums of the batches of one replicate. The value of a reading is known part + sum / samples taken.
 struct ReadingSums {
-    std::vector<Rgb> sum;         ///< one for each reading [lx or cd/m2, x samples taken]
-    std::vector<double> largest;  ///< largest single contribution to each reading, before division
+    std::vector<Rgb> sum;               ///< one for each reading [lx or cd/m2, x samples taken]
+    std::vector<double> largest;        ///< largest single contribution to each reading, before division
+    std::vector<float> largest_direct;  ///< the same of light that comes straight from lamps
     std::uint64_t rays = 0;
     std::uint64_t invalid = 0;  ///< non-finite contributions, which are left out
     /// Methods on patches: what the readings lack, by path tracing behind the same rays for some of the
@@ -88,7 +89,7 @@ struct ReadingSums {
     std::vector<Rgb> lacking;
     std::uint64_t comparisons = 0;
 
-    explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings) {}
+    explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings), largest_direct(readings) {}
 
     /// Adds what a reading lacks in one comparison.
     void add_lacking(std::size_t reading, const Rgb& difference) {
@@ -103,6 +104,12 @@ struct ReadingSums {
     /// Adds all of another batch, of as many readings.
     ReadingSums& operator+=(const ReadingSums& batch);
 
+    /// Adds light that comes straight from lamps: it does not tell whether samples find any other.
+    void add_direct(std::size_t reading, const Rgb& contribution) {
+        add(reading, contribution, 0);
+        largest_direct[reading] =
+            std::max(largest_direct[reading], static_cast<float>(std::abs(contribution.luminance())));
+    }
     /// Adds a contribution to a reading.
     void add(std::size_t reading, const Rgb& contribution) {
         add(reading, contribution, std::abs(contribution.luminance()));

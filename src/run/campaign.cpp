@@ -61,7 +61,7 @@ std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunO
     for (const Sensor& sensor : sensors) readings += sensor.size();
     if (readings == 0) return 0;
     const std::size_t replicates = ReplicatePlan::of(sensors, options, false).replicates;
-    constexpr std::size_t bytes_of_sum = sizeof(Rgb) + sizeof(double);  // ReadingSums
+    constexpr std::size_t bytes_of_sum = sizeof(Rgb) + sizeof(double) + sizeof(float);  // ReadingSums
     return readings *
            (kBytesOfReading + bytes_of_sum * replicates * strands_of_replicate(replicates, readings));
 }
@@ -244,11 +244,13 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
         const bool is_ruled_out = known.overall == 0 && samples >= kSamplesToRuleOut;
         if (!expected_largest_.empty() && !is_ruled_out)
             known.overall = std::max(known.overall, expected_largest_[first + j]);
-        // That no sample found anything is no proof that there is nothing: replicates agree all the same.
-        if (known.overall == 0 && known_part[j].luminance() > 0)
-            known.overall = possible_.of(sensor.measurand(j));
         all.samples.push_back(samples);
-        all.rare_light.push_back(statistics::rare_light(known, samples));
+        double rare_light = statistics::rare_light(known, samples);
+        // That no sample found reflected light is no proof that there is none: replicates agree all the same.
+        if ((all.largest[j].overall > 0 || known_part[j].luminance() > 0) && !has_found_reflected(first + j))
+            rare_light =
+                std::max(rare_light, statistics::rare_light({possible_.of(sensor.measurand(j)), 0}, samples));
+        all.rare_light.push_back(rare_light);
     }
     all.readings =
         statistics::estimate_readings({all.replicate_means, count, all.columns}, confidence, all.rare_light);
@@ -260,6 +262,13 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
     for (std::size_t j = 0; j < count; ++j)
         all.readings[j] = statistics::widened(all.readings[j], all.bias->of_readings[j]);
     return all;
+}
+
+bool Campaign::has_found_reflected(std::size_t reading) const {
+    return std::ranges::any_of(replicates_, [&](const Replicate& replicate) {
+        return std::ranges::any_of(replicate.strands,
+                                   [&](const Strand& strand) { return strand.sums.largest[reading] > 0; });
+    });
 }
 
 std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t count) const {
@@ -311,7 +320,9 @@ std::vector<statistics::LargestContributions> Campaign::largest(std::size_t firs
         std::size_t s = 0;
         for_each_strand([&](const Strand& strand) {
             const double* own = &strand.sums.largest[first];
-            for (std::size_t j = begin; j < end; ++j) of_strands[(j - begin) * width + s] = own[j];
+            const float* direct = &strand.sums.largest_direct[first];
+            for (std::size_t j = begin; j < end; ++j)
+                of_strands[(j - begin) * width + s] = std::max(own[j], double{direct[j]});
             ++s;
         });
         for (std::size_t j = begin; j < end; ++j)

@@ -103,7 +103,7 @@ void add_extras(Draft& draft, Draw& draw, const Site& site, std::string& kind) {
     if (draw.chance(0.2)) add_colours(draft, draw);
     change_projections(draft, draw);
     if (draw.chance(0.15)) add_sensor_of_room(draft, draw, site);
-    if (draw.chance(0.04)) add_eye(draft, draw, site);
+    if (draw.chance(0.01)) add_eye(draft, draw, site);
 }
 
 }  // namespace stilb::random

@@ -118,6 +118,21 @@ TEST(WeakLamp, ThatNoSampleFoundIsAllowedFor) {
     EXPECT_EQ(black.upper, black.lower);
 }
 
+/// A small ball close to a lamp reflects to a point far from both, and no path meets it. The direct light is
+/// sampled, as the lamp has an area, and the ball gets a thousand times the light of the point. The second
+/// method is local estimation, whose light paths meet the ball.
+TEST(WeakLamp, LightOfSmallThingsThatNoSampleFoundIsAllowedFor) {
+    Scene scene;
+    add_object(scene, Sphere{{0, 0, 0.1}, 0.02}, diffuse(0.9));
+    add_area_light(scene, Sphere{{0, 0, 0.13}, 0.005}, Rgb::grey(1e4));
+    const Sensor sensor{"far", IlluminancePoints{{{{2.5, 0, 0.12}, {-1, 0, 0}}}}};
+    const auto whole = measured(scene, sensor, "local", 1 << 18, 1);
+    const auto found = measured(scene, sensor, "path", 1024, 1);
+    EXPECT_LT(found.standard_error, 1e-3 * whole.value);
+    EXPECT_GT(whole.value - found.value, 0.04 * whole.value);
+    EXPECT_GT(found.upper, whole.value);
+}
+
 /// A ground far below the room does not make its walls seem too near to reflect light.
 TEST(WeakLamp, IsPossibleWhateverLiesElsewhere) {
     Scene scene;

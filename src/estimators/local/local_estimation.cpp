@@ -241,7 +241,8 @@ class LocalReadings {
                 std::vector<math::SampleStream> streams = streams_of(key, t, tile.size(), i);
                 transport::DirectLight::TileLight light{};
                 transport_.direct.add_sample(tile, remainder, streams, light);
-                for (std::size_t j = 0; j < tile.size(); ++j) sums.add(tile[j].reading(), weight * light[j]);
+                for (std::size_t j = 0; j < tile.size(); ++j)
+                    sums.add_direct(tile[j].reading(), weight * light[j]);
             }
         });
     }

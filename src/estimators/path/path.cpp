@@ -211,7 +211,7 @@ class PathEstimator final : public Estimator {
         for (std::uint64_t n = first; n < end; ++n) {
             const transport::Receiver& point = points_[n / batch.count];
             math::SampleStream stream(batch.key.derived(point.reading()), batch.first + n % batch.count);
-            sums.add(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
+            sums.add_direct(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
             if (!sample) continue;
