@@ -103,7 +103,8 @@ void add_extras(Draft& draft, Draw& draw, const Site& site, std::string& kind) {
     if (draw.chance(0.2)) add_colours(draft, draw);
     change_projections(draft, draw);
     if (draw.chance(0.15)) add_sensor_of_room(draft, draw, site);
-    if (draw.chance(0.01)) add_eye(draft, draw, site);
+    // Each measurement makes a picture at the eye, which takes seconds where there are many lamps.
+    if (draft.lights.size() < 5 && draw.chance(0.015)) add_eye(draft, draw, site);
 }
 
 }  // namespace stilb::random
