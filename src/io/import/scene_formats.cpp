@@ -6,6 +6,7 @@
 #include "io/import/gltf/gltf_scene.h"
 #include "io/import/obj/obj_scene.h"
 #include "io/import/radiance/radiance_scene_file.h"
+#include "io/text/unread_bytes.h"
 
 namespace stilb::io {
 namespace {
