@@ -151,7 +151,7 @@ class GuidedPicture final : public LocalPicture {
     Divided divide(std::span<const SubPointPacket> packets) const {
         Divided divided;
         for (const SubPointPacket& packet : packets) {
-            SubPointPacket even{packet.first, {}, {}}, glossy = even;
+            SubPointPacket even{packet.first, {}, {}}, glossy{packet.first, {}, {}};
             for (std::size_t i = 0; i < packet.receivers.size(); ++i) {
                 const GuidedLight::Divided parts = guide_.divide({&packet.receivers[i], 1});
                 for (const transport::Receiver& part : parts.even)
@@ -192,8 +192,9 @@ class GuidedPicture final : public LocalPicture {
         const auto block = static_cast<std::uint64_t>(pixel.x / kPacketSide) << 32 |
                            static_cast<std::uint64_t>(pixel.y / kPacketSide);
         const auto random = math::SampleStream(pass.key.derived(kShift), block, 0).next_two();
-        return gather_shift(
-            random, static_cast<std::size_t>(pixel.y % kPacketSide * kPacketSide + pixel.x % kPacketSide));
+        const auto row = static_cast<std::size_t>(pixel.y % kPacketSide),
+                   column = static_cast<std::size_t>(pixel.x % kPacketSide);
+        return gather_shift(random, row * kPacketSide + column);
     }
 
     const LocalTransport& transport_;

@@ -185,10 +185,11 @@ Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at
         next = stream.next() < survival ? look_around(start.point, stream) : Around{};
     }
     Rgb missing_cd_m2 = next.missing_cd_m2;
-    for (auto step = steps.rbegin(); step != steps.rend(); ++step) {
-        Rgb missing_lx = step->missing_lx;
-        if (step->survival > 0) missing_lx += missing_cd_m2 * kPi * (1 / step->survival);
-        missing_cd_m2 = missing_lx * (step->reflectance * (1 / kPi));
+    std::ranges::reverse(steps);
+    for (const Step& step : steps) {
+        Rgb missing_lx = step.missing_lx;
+        if (step.survival > 0) missing_lx += missing_cd_m2 * kPi * (1 / step.survival);
+        missing_cd_m2 = missing_lx * (step.reflectance * (1 / kPi));
     }
     return missing_cd_m2;
 }
