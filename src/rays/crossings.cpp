@@ -76,7 +76,7 @@ std::vector<CrossedPrimitive> crossed_primitives(RTCScene scene,
     }
     std::vector<CrossedPrimitive>& all = search.found;
     std::ranges::sort(all);
-    all.erase(std::ranges::unique(all).begin(), all.end());
+    all.erase(std::unique(all.begin(), all.end()), all.end());
     all.insert(all.end(), curved.begin(), curved.end());
     return all;
 }

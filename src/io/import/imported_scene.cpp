@@ -143,8 +143,8 @@ void ImportedScene::remark_mean_texture(std::string_view material) {
                  "the texture counts by its mean over the surface; import.textures=true shows it.");
 }
 
-MaterialId ImportedScene::add_material(std::string_view name, Material material) {
-    file.scene.materials.push_back({materials_.make(name, "material"), std::move(material)});
+MaterialId ImportedScene::add_material(std::string_view name, const Material& material) {
+    file.scene.materials.push_back({materials_.make(name, "material"), material});
     return MaterialId{static_cast<std::uint32_t>(file.scene.materials.size() - 1)};
 }
 

@@ -63,7 +63,7 @@ class ImportedScene {
     void remark_mean_texture(std::string_view material);
     /// Adds a sentence about the scene as a whole to its warnings.
     void note(std::string_view sentence);
-    MaterialId add_material(std::string_view name, Material material);
+    MaterialId add_material(std::string_view name, const Material& material);
     /// Makes all faces of a material shine.
     void set_emission(MaterialId material, const Emission& emission) { emissions_[material] = emission; }
     /// Shows the texture on the faces of a material that have a place in it.

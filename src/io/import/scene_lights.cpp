@@ -140,7 +140,7 @@ class LightTable {
         const auto known = file_.embedded_luminaires.find(file);
         if (known != file_.embedded_luminaires.end()) return known->second;
         try {
-            const std::string content = read_whole_file(file);
+            std::string content = read_whole_file(file);
             read_photometry(content, file);
             return content;
         } catch (const InputError&) {  // a distribution in a format of another program

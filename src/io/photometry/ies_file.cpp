@@ -213,7 +213,7 @@ double read_factor(NumberReader& reader, std::string_view what) {
 /// that is the same as another, and with a negative height both make a sphere or an ellipsoid. What only the
 /// older tables have is read so in newer files, too.
 Vec3 in_signs_of_2002(const Vec3& opening, int year) {
-    const auto& [length, width, height] = opening;
+    const double length = opening.x, width = opening.y, height = opening.z;
     const bool is_round = length < 0 || width < 0;
     if (height >= 0) {
         if (!is_round) return opening;

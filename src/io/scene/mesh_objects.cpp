@@ -30,7 +30,7 @@ MaterialId read_material(const TomlItem& item, const Scene& scene) {
 
 void add_mesh_warnings(const std::string& where, const MeshFile& mesh, SceneFile& file) {
     for (const std::string& sentence : mesh_warnings(mesh)) {
-        std::string warning = where + ": " + sentence;
+        std::string warning = fmt::format("{}: {}", where, sentence);
         // Bodies of several luminaires have the same.
         if (std::ranges::find(file.warnings, warning) == file.warnings.end())
             file.warnings.push_back(std::move(warning));

@@ -26,8 +26,8 @@ struct Handlers {
 };
 
 struct ServerLimits {
-    std::size_t body_bytes = 64 * 1024;
-    std::size_t header_bytes = 32 * 1024;
+    std::size_t body_bytes = std::size_t{64} * 1024;
+    std::size_t header_bytes = std::size_t{32} * 1024;
     std::size_t connections = 64;               ///< for one more, the oldest one that waits is closed
     std::chrono::milliseconds request{4000};    ///< for a request to arrive completely, from its first byte
     std::chrono::milliseconds idle{5000};       ///< between requests

@@ -253,7 +253,7 @@ void LightGather::gather(std::uint32_t first, std::uint32_t last) {
     std::vector<GatheredRay> rays;
     for (std::uint32_t vertex = first; vertex < last; ++vertex) {
         for (std::uint32_t r = 0; r < replicates_; ++r) {
-            if (auto ray = start(vertex, r)) rays.push_back(std::move(*ray));
+            if (auto ray = start(vertex, r)) rays.push_back(*ray);
         }
         ++rays_[vertex];
     }

@@ -312,7 +312,7 @@ std::filesystem::path find_file(const Description& description, const Place& pla
     std::vector<std::filesystem::path> folders{description.folders[place.file], description.folders.front()};
     std::ranges::copy(library_folders(name), std::back_inserter(folders));
     for (const std::filesystem::path& folder : folders) {
-        const std::filesystem::path path = (folder / name).lexically_normal();
+        std::filesystem::path path = (folder / name).lexically_normal();
         if (std::filesystem::is_regular_file(path, error)) return path;
     }
     throw InputError(

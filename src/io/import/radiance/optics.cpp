@@ -312,7 +312,7 @@ void OpticsReader::note_patterns(const std::vector<std::size_t>& patterns, Optic
             if (own.type == "brightdata") {
                 optics.lamp.patterns.push_back(pattern);
             } else if (auto sky = SkyPattern::read(own, description_)) {
-                optics.lamp.skies.push_back(std::move(*sky));
+                optics.lamp.skies.push_back(*sky);
             } else {
                 warnings_.add(
                     own.type, own.name,

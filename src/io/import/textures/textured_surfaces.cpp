@@ -320,8 +320,8 @@ class SurfaceDivision {
     }
 
     void remove(const std::set<ObjectId>& objects) {
-        for (auto id = objects.rbegin(); id != objects.rend(); ++id)
-            scene_.objects.erase(scene_.objects.begin() + index_of(*id));
+        std::uint32_t number = 0;
+        std::erase_if(scene_.objects, [&](const Object&) { return objects.contains(static_cast<ObjectId>(number++)); });
     }
 
     Scene& scene_;
