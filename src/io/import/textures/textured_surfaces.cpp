@@ -321,7 +321,8 @@ class SurfaceDivision {
 
     void remove(const std::set<ObjectId>& objects) {
         std::uint32_t number = 0;
-        std::erase_if(scene_.objects, [&](const Object&) { return objects.contains(static_cast<ObjectId>(number++)); });
+        std::erase_if(scene_.objects,
+                      [&](const Object&) { return objects.contains(static_cast<ObjectId>(number++)); });
     }
 
     Scene& scene_;
