@@ -44,9 +44,12 @@ def system_library(name):
 
 
 def add_libraries_of_x11(folder):
-    """Adds libraries that Cairo needs, and that auditwheel expects of every system: servers and containers lack them."""
+    """Adds libraries that Cairo needs, and that auditwheel expects of every system: servers and containers lack them.
+    Where Cairo is linked as an archive (cmake/cairo.cmake), it draws without them."""
     names = ["libX11.so.6", "libXext.so.6", "libXrender.so.1"]
-    (xcb,) = folder.glob("libxcb-????????.so*")
+    xcb = next(folder.glob("libxcb-????????.so*"), None)
+    if xcb is None:
+        return
     for name in names:
         library = folder / name
         shutil.copy(system_library(name), library)
