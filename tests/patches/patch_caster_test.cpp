@@ -57,5 +57,23 @@ TEST(PatchCaster, HitsAreWhereTheSceneIs) {
     EXPECT_GT(same_object, packets * kPacketWidth / 2 * 99 / 100);
 }
 
+/// Where the processor has no packets of sixteen, Embree traces the rays of all lanes.
+TEST(PatchCaster, LeavesLanesAloneThatAreNotSet) {
+    const Patches patches = make_patches(furnished_room(), 0.2);
+    const PatchCaster caster(patches);
+    RandomPairs random(12);
+    const RayPacket rays = random_rays(point_in_room().position - patches.center, random);
+    LaneMask lanes{};
+    lanes[3] = lanes[9] = -1;
+    PacketCrossings crossings;
+    caster.all(rays, lanes, crossings);
+    RayPacket after = rays;
+    caster.closest(after, lanes);
+    for (std::size_t lane = 0; lane < kPacketWidth; ++lane) {
+        EXPECT_EQ(crossings[lane].empty(), lanes[lane] == 0) << lane;
+        EXPECT_EQ(after.end[lane] == rays.end[lane], lanes[lane] == 0) << lane;
+    }
+}
+
 }  // namespace
 }  // namespace stilb::patches
