@@ -33,7 +33,12 @@ GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster,
                            double{guess.patches().areas_m2[guess.patches().patch_of(side)]});
     }
     const std::vector<double> favours = transport::emission_favours(weights_, luminances_cd_m2);
-    for (std::size_t i = 0; i < weights_.size(); ++i) weights_[i] *= favours[i];
+    // None counts as brighter than the brightest one: a small dark side beside a receiver, with the favour
+    // that it deserves beside a large ground, would leave no points for the walls around.
+    const double most_cd_m2 = luminances_cd_m2.empty() ? 0 : std::ranges::max(luminances_cd_m2);
+    for (std::size_t i = 0; i < weights_.size(); ++i) {
+        if (weights_[i] > 0) weights_[i] *= std::min(favours[i], most_cd_m2 / luminances_cd_m2[i]);
+    }
     for (std::size_t i = 0; i < guess.lit_sides().size(); ++i) add(i, all_);
 }
 
