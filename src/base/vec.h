@@ -72,6 +72,11 @@ struct Frame {
 
 // Axis-parallel bounding boxes.
 
+/// The largest of the components' magnitudes.
+inline double largest_coordinate(const Vec3& v) {
+    return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
 struct Bounds {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Vec3 min{kInfinity, kInfinity, kInfinity};
@@ -83,6 +88,11 @@ struct Bounds {
         return is_empty() ? 0 : std::max({max.x - min.x, max.y - min.y, max.z - min.z}) / 2;
     }
     constexpr Vec3 middle() const { return 0.5 * (min + max); }
+    /// The area of the six faces.
+    constexpr double surface_m2() const {
+        const Vec3 e = max - min;
+        return 2 * (e.y * e.z + e.z * e.x + e.x * e.y);
+    }
     constexpr void include(const Vec3& p) {
         min = {std::min(min.x, p.x), std::min(min.y, p.y), std::min(min.z, p.z)};
         max = {std::max(max.x, p.x), std::max(max.y, p.y), std::max(max.z, p.z)};

@@ -42,9 +42,7 @@ std::vector<std::string> precision_warnings(const rays::RayCaster& caster, std::
             if (offset_m < kSmallOffset_m) continue;
             const auto around_m = distance_around({position, {0, 0, 1}}, caster);
             if (!around_m || offset_m < kLargestShare * *around_m) continue;
-            const Vec3 from_center = position - caster.center();
-            const double far_m =
-                std::max({std::abs(from_center.x), std::abs(from_center.y), std::abs(from_center.z)});
+            const double far_m = largest_coordinate(position - caster.center());
             warnings.push_back(
                 fmt::format("sensor \"{}\": it lies {:.3g} m from the middle of what is measured, ({:.6g}, "
                             "{:.6g}, {:.6g}). "

@@ -126,7 +126,8 @@ inline bool is_exact(const Shape& shape) {
 /// its own coordinates. Null where it stores none.
 const Mesh* stored_mesh(const Shape& shape);
 
-/// Of a mesh, an instance, or the triangulated() rectangle or box; 0 where the surface is_exact().
+/// The number of triangles of a mesh, an instance, or the triangulated() rectangle or box; 0 where the
+/// surface is_exact().
 std::size_t triangle_count(const Shape& shape);
 /// The corners of one of these triangles, in the world.
 std::array<Vec3, 3> corners_of(const Shape& shape, std::size_t triangle);

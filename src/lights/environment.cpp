@@ -71,11 +71,6 @@ std::array<double, 3> face_areas_m2(const Bounds& box) {
     return {e.y * e.z, e.z * e.x, e.x * e.y};
 }
 
-double total_face_area_m2(const Bounds& box) {
-    const auto areas = face_areas_m2(box);
-    return areas[0] + areas[1] + areas[2];
-}
-
 /// The projected areas of the box along a unit direction, face by face: one of each pair.
 std::array<double, 3> projected_areas_m2(const Bounds& box, const Vec3& direction) {
     std::array<double, 3> areas = face_areas_m2(box);
@@ -89,7 +84,7 @@ double projected_area_m2(const Bounds& box, const Vec3& direction) {
 }
 
 Rgb flux_into(const Bounds& box, const EnvironmentLight& light) {
-    if (!light.panorama) return 2 * kPi * total_face_area_m2(box) * light.luminance_cd_m2;
+    if (!light.panorama) return kPi * box.surface_m2() * light.luminance_cd_m2;
     Rgb flux;
     for (const Panorama::Part& part : light.panorama->parts())
         flux += projected_area_m2(box, light.axes.to_world(part.direction)) * part.normal_illuminance_lx;
@@ -176,7 +171,7 @@ Emission EnvironmentEmitter::through(std::size_t entry, const Vec3& point, const
         const auto [enters, leaves] = lengths_within(box, point, direction);
         return enters <= leaves;
     };
-    // Of the line, over that of particles through the scene's box alone.
+    // The density of this line over the one that it has if all particles go through the scene's box.
     double density = 0;
     for (std::size_t i = 0; i < entries_.size(); ++i) {
         const auto& [box, share_of_box] = entries_[i];
@@ -202,7 +197,7 @@ Emission EnvironmentEmitter::emit_constant(math::SampleStream& stream) const {
     const Vec3 inwards = with_components(choice.index, is_upper ? -1 : 1, 0, 0);
     return through(entry.index, on_face(box, choice.index, is_upper, {rest, u2}),
                    Frame::around(inwards).to_world(math::sample_cosine_hemisphere(v1, v2).direction),
-                   Rgb::grey(1), total_face_area_m2);
+                   Rgb::grey(1), [](const Bounds& of) { return of.surface_m2(); });
 }
 
 Emission EnvironmentEmitter::emit_panorama(math::SampleStream& stream) const {

@@ -96,9 +96,9 @@ void check_size(const Scene& scene, double longest_edge_m) {
         const Object& largest =
             std::ranges::max(scene.objects, {}, [](const Object& object) { return area_m2(object.shape); });
         throw InputError(fmt::format(
-            "a patch size of {} m would give about {:.1g} patches, more than the limit of {}: object \"{}\" "
-            "has "
-            "{:.2g} % of the area. Leave it out if it matters to nothing, or use {:.2g} m or more.",
+            "a patch size of {} m would give about {:.1g} patches, more than the limit of {}: object "
+            "\"{}\" has {:.2g} % of the area. Leave it out if it matters to nothing, or use {:.2g} m or "
+            "more.",
             longest_edge_m, about, kMostPatches, largest.name,
             100 * area_m2(largest.shape) / surface_area_m2(scene),
             patch_size_m(scene, static_cast<double>(kMostPatches))));
@@ -142,7 +142,7 @@ Vec3 center_of(const std::vector<Division>& divisions, const std::optional<Vec3>
         for (const Vec3& vertex : division.coarse.vertices) bounds.include(vertex);
     }
     if (bounds.is_empty()) return {};
-    return exact_at && bounds.half_extent() > kLargeHalfExtent_m ? *exact_at : bounds.middle();
+    return exact_at && bounds.half_extent() > scene::kLargeHalfExtent_m ? *exact_at : bounds.middle();
 }
 
 RefinedMesh refined(const Division& division) {

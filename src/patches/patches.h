@@ -70,13 +70,11 @@ struct Patches {
 /// The longest edge of a sphere or of a disk's rim, over the radius, for any patch size.
 inline constexpr double kLongestCurvedEdge = 0.4;
 inline constexpr std::size_t kMostPatches = 100'000'000;
-/// In scenes of a larger half extent single precision is not enough everywhere, and things may lie far apart.
-inline constexpr double kLargeHalfExtent_m = 32;
 
 /// Patches whose edges are no longer than `longest_edge_m`; triangles without area are left out. Their centre
-/// is the middle of the bounding box; of large scenes (kLargeHalfExtent_m) it is `exact_at`, if given. Throws
-/// InputError where the size is not above 0, and where there would be more than about kMostPatches; Cancelled
-/// as the monitor says.
+/// is the middle of the bounding box; of large scenes (scene::kLargeHalfExtent_m) it is `exact_at`, if given.
+/// Throws InputError where the size is not above 0, and where there would be more than about kMostPatches;
+/// Cancelled as the monitor says.
 Patches make_patches(const Scene& scene, double longest_edge_m, const Monitor& monitor = Monitor::none(),
                      const std::optional<Vec3>& exact_at = {});
 

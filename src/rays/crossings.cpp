@@ -65,8 +65,7 @@ std::vector<CrossedPrimitive> crossed_primitives(RTCScene scene,
         (geometries[met.object]->curved ? curved : search.found).push_back(met);
 
         const Vec3 place = origin + distance_m * direction;
-        const double radius_m =
-            kSamePlace * std::max({std::abs(place.x), std::abs(place.y), std::abs(place.z), distance_m});
+        const double radius_m = kSamePlace * std::max(largest_coordinate(place), distance_m);
         RTCPointQuery query{static_cast<float>(place.x), static_cast<float>(place.y),
                             static_cast<float>(place.z), 0, static_cast<float>(radius_m)};
         RTCPointQueryContext stack;

@@ -156,7 +156,7 @@ RTCGeometry new_curved(RTCDevice device, const EmbreeGeometry& kept) {
 
 void require_within_reach(const Scene& scene) {
     const auto require = [](std::string_view kind, const std::string& name, const Vec3& at) {
-        const double farthest_m = std::max({std::abs(at.x), std::abs(at.y), std::abs(at.z)});
+        const double farthest_m = largest_coordinate(at);
         if (farthest_m <= kFarthest_m) return;
         throw InputError(fmt::format(
             "{} \"{}\" reaches a coordinate of {:.2g} m; up to 1e9 m are possible. Check the units: Stilb "

@@ -20,8 +20,6 @@ constexpr double kRounding = 0x1p-22;
 /// Of the ray caster's triangles: larger ones are cut.
 constexpr double kLargeTriangle_m = 8;
 
-double largest_coordinate(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 Vec3 to_vector(const std::array<float, 3>& p) { return {p[0], p[1], p[2]}; }
 
 std::array<float, 3> to_point(const Vec3& p) {

@@ -14,8 +14,6 @@
 namespace stilb::scene {
 namespace {
 
-/// Scenes up to this half extent lift points by 61 micrometres at most, wherever their centre is.
-constexpr double kLargeHalfExtent_m = 32;
 /// Limits of the work for one choice, in visits of a triangle or an object by a measured point.
 constexpr std::size_t kMostVisits = 20'000'000;
 constexpr std::size_t kMostPoints = 32;
@@ -30,8 +28,6 @@ struct Vote {
     Vec3 at;
     double weight = 1;
 };
-
-double largest_coordinate(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
 
 Vec3 nearest_in(const Bounds& box, const Vec3& to) {
     return {std::clamp(to.x, box.min.x, box.max.x), std::clamp(to.y, box.min.y, box.max.y),
@@ -128,7 +124,7 @@ Vec3 center_of(const Scene& scene, std::span<const Vec3> measured) {
     return largest_coordinate(nearest - middle) > kLargeHalfExtent_m ? nearest : middle;
 }
 
-/// Of the lamps and of the measured points.
+/// The bounds of the lamps and of the measured points.
 Bounds lit_places(const Scene& scene, std::span<const Vec3> measured) {
     Bounds places;
     for (const Vec3& point : measured) places.include(point);

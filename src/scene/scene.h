@@ -76,6 +76,9 @@ class LightSurroundings final : public lights::Surroundings {
 
 /// Bounds of all objects and point lights; a point at the origin where there are none.
 Bounds bounds_of(const Scene& scene);
+/// A scene of a larger half extent is large: single precision is not enough everywhere in it, and things may
+/// lie far apart. Smaller ones lift points by 61 micrometres at most, wherever their centre is.
+inline constexpr double kLargeHalfExtent_m = 32;
 /// How points are lifted off surfaces. Single precision is best near its centre: the middle of the bounding
 /// box, or in a scene of more than 64 m the median of the middles of all objects and lights, so that the
 /// details of a house count, not the middle of the ground around it. `measured`: points at which light is

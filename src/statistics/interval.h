@@ -21,7 +21,7 @@ struct Estimate {
 
     bool operator==(const Estimate&) const = default;
 };
-/// Of a quantity that has no value, such as a ratio to 0.
+/// The value of what is not defined, such as a ratio to 0.
 inline constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 inline constexpr Estimate kUndefinedEstimate{kUndefined, kUndefined, kUndefined, kUndefined};
 

@@ -53,11 +53,6 @@ std::vector<Vec3> seen_places(const rays::RayCaster& caster) {
     return places;
 }
 
-double surface_m2(const Bounds& box) {
-    const Vec3 e = box.max - box.min;
-    return 2 * (e.x * e.y + e.y * e.z + e.z * e.x);
-}
-
 /// Calls `visit` for the groups of places that are so far apart; reorders them.
 template <typename Visit>
 void visit_groups(std::span<Vec3> places, double apart_m, const Visit& visit) {
@@ -92,7 +87,7 @@ struct Finder {
         Bounds extent;
         for (const Vec3& place : places) extent.include(place);
         const Bounds part = part_around(extent, box, least_room_m);
-        const bool is_part = kMuchLess * surface_m2(part) < surface_m2(box);
+        const bool is_part = kMuchLess * part.surface_m2() < box.surface_m2();
         const std::size_t own = entries.size();
         if (is_part) entries.push_back({part});
         const double of_groups = is_part ? kShareOfParts * share : share;

@@ -49,16 +49,17 @@ TEST(Facing, LightFromNarrowStripsAndFromUplightsGetsOut) {
     EXPECT_EQ(warnings_of(room_with_panel(2.79, true, 0.005)), Texts{});
 }
 
-/// A luminaire 5 cm above a false ceiling, of a file with light downwards only.
+/// A luminaire of a file with light downwards only.
+void add_panel(Scene& scene, const Vec3& position) {
+    const PhotometricSolid solid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}});
+    add_luminaire(scene, position, solid, kDown, 0, Rgb::grey(1));
+    scene.lights.back().name = "panel";
+}
+
+/// The luminaire is 5 cm above a false ceiling.
 TEST(Facing, ALuminaireAboveAFalseCeiling) {
     Scene scene = furnished_room();
-    scene.solids.push_back(
-        {.file = "panel.ldt",
-         .luminaire = "",
-         .solid = PhotometricSolid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}})});
-    const lights::LuminaireFrame frame = lights::aim_luminaire(kDown, 0);
-    scene.lights.push_back(
-        {"panel", Luminaire{{2, 1.5, 2.65}, SolidId{0}, frame.c0, frame.c90, frame.nadir, Rgb::grey(1)}});
+    add_panel(scene, {2, 1.5, 2.65});
     EXPECT_EQ(warnings_of(scene), Texts{});
     add_object(scene, Rectangle{{0, 0, 2.6}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
     EXPECT_EQ(
@@ -78,13 +79,7 @@ TEST(Facing, ALuminaireAboveAFalseCeiling) {
 TEST(Facing, GapsOfTenCentimetresAreNarrow) {
     const auto warnings_at = [](double gap_m) {
         Scene scene = furnished_room();
-        scene.solids.push_back(
-            {.file = "panel.ldt",
-             .luminaire = "",
-             .solid = PhotometricSolid({lights::PhotometryType::C, {0}, {0, 45, 90}, {100, 70, 0}})});
-        const lights::LuminaireFrame frame = lights::aim_luminaire(kDown, 0);
-        scene.lights.push_back(
-            {"panel", Luminaire{{2, 1.5, 2}, SolidId{0}, frame.c0, frame.c90, frame.nadir, Rgb::grey(1)}});
+        add_panel(scene, {2, 1.5, 2});
         add_object(scene, Rectangle{{0, 0, 2 - gap_m}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
         return warnings_of(scene).size();
     };

@@ -209,7 +209,7 @@ Checked check(const RandomScene& random, std::uint64_t scene, const Options& opt
         const bool lacks_near_light =
             has_heavy_tails(finding.setting) && finding.difference.value < finding.difference.other;
         finding.is_explained = lacks_near_light || is_explained_by(finding.warnings);
-        // What such a method lacks has no bound, but it has to say so.
+        // Such a method may lack any share of the light, but it has to warn.
         const auto [lower, higher] = std::minmax(finding.difference.value, finding.difference.other);
         if (lower < kLeastExplained * higher &&
             !(lacks_near_light && is_explained_by(again.measured.warnings)))

@@ -1,5 +1,4 @@
-// What some random scenes have beside their room, things, lamps and sensors: files, colours, sensors of
-// rooms.
+// Additions to some random scenes: files, colours, sensors of rooms and of glare by daylight.
 #include "random/generator.h"
 
 namespace stilb::random {
@@ -93,6 +92,17 @@ void add_eye(Draft& draft, Draw& draw, const Site& site) {
         .set("direction", vector({std::cos(phi), std::sin(phi), 0}));
 }
 
+/// Everything else stands on it, or it lies far below.
+void add_wide_ground(Draft& draft, Draw& draw, const Site& site, std::string& kind) {
+    const double size = site.least() * draw.by_size(1e2, 1e5), down = draw.one_of({0.0, 0.1, 10.0});
+    const Vec3 middle = site.at({0.5, 0.5, -down});
+    draft.add_object("rectangle", add_material(draft, draw))
+        .set("corner", vector(middle - Vec3{size / 2, size / 2, 0.01 * site.size().z}))
+        .set("edge_u", vector({size, 0, 0}))
+        .set("edge_v", vector({0, size, 0}));
+    kind += ", wide ground";
+}
+
 }  // namespace
 
 void add_extras(Draft& draft, Draw& draw, const Site& site, std::string& kind) {
@@ -105,6 +115,7 @@ void add_extras(Draft& draft, Draw& draw, const Site& site, std::string& kind) {
     if (draw.chance(0.15)) add_sensor_of_room(draft, draw, site);
     // Each measurement makes a picture at the eye, which takes seconds where there are many lamps.
     if (draft.lights.size() < 5 && draw.chance(0.015)) add_eye(draft, draw, site);
+    if (!site.is_closed && draw.chance(0.25)) add_wide_ground(draft, draw, site, kind);
 }
 
 }  // namespace stilb::random

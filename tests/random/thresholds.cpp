@@ -159,18 +159,17 @@ std::span<const Threshold> thresholds() {
         {"kSparse", "src/patches/visibility/bundle.cpp", "32",
          "sizes squared over areas: bundles of rays have one grid, or cells",
          "not one by one; both sides: tests/patches/bundle_test.cpp"},
-        {"kLargeHalfExtent_m", "src/patches/patches.h", "32",
-         "half extents: bundles of rays have one grid, or cells as the patches need; the centre of patches",
-         "tests/run/far_things_test.cpp: halls of 63.8, 64 and 64.2 m"},
         {"most_vertices", "src/estimators/limits.cpp", "1 << 21", "light paths at once in nearly white rooms",
          "not crossed: reflectances above 0.999"},
         // Distances and sizes.
         {"kFarthestEnd_m", "src/base/rays.h", "32", "half extents: offsets by the extent, or by 32 m",
          "tests/scene/lift_test.cpp: scenes of 63.9, 64 and 64.1 m; tests/run/far_things_test.cpp: halls of "
          "60 and 68 m"},
-        {"kLargeHalfExtent_m", "src/scene/lift.cpp", "32",
-         "half extents: rays are most exact in the middle, or near to sensors",
-         "tests/scene/lift_test.cpp: scenes of 63.9, 64 and 64.1 m; rooms from 1 cm to 1 km"},
+        {"kLargeHalfExtent_m", "src/scene/scene.h", "32",
+         "half extents: rays and patches are most exact in the middle, or near to sensors; bundles of rays "
+         "have one grid, or cells",
+         "tests/scene/lift_test.cpp: scenes of 63.9, 64 and 64.1 m; tests/run/far_things_test.cpp: halls of "
+         "63.8, 64 and 64.2 m; rooms from 1 cm to 1 km"},
         {"kGap", "src/scene/lift.cpp", "32",
          "gaps around lamps and sensors, in extents of what is near: things beyond count for offsets, or do "
          "not",

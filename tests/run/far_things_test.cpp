@@ -12,6 +12,7 @@
 #include "exact/diffuse_cube.h"
 #include "run/run.h"
 #include "scene/overlaps.h"
+#include "statistics/hypothesis.h"
 #include "statistics/interval.h"
 #include "support/scene_builder.h"
 
@@ -252,6 +253,28 @@ TEST(FarThings, LeaveCourtsTheReflectedLightOfTheSky) {
                     }
                 }
             }
+        }
+    }
+}
+
+/// A wall and a kiosk under a sky, with a globe of light, on grounds of 40 m to 40 km. The kiosk's lower face
+/// has hardly any light of the guess, and the ground of the largest scene a billion times as much.
+TEST(FarThings, AGuessFindsTheLightOfWallsOnALargeGround) {
+    for (const double size_m : {40., 4e3, 4e4}) {
+        Scene scene;
+        const double half_m = size_m / 2;
+        add_object(scene, Rectangle{{-half_m, -half_m, 0}, {size_m, 0, 0}, {0, size_m, 0}}, diffuse(0.1));
+        add_object(scene, Box{{-6, 8, 0}, {6, 8.3, 7}}, diffuse(0.35));
+        add_object(scene, Box{{-1, 2, 0}, {1, 3, 1}}, diffuse(0.4));
+        add_area_light(scene, Sphere{{0, 5, 3}, 0.15}, Rgb::grey(3000));
+        add_environment(scene, Rgb::grey(500));
+        const std::vector<Sensor> sensors{
+            {"yard", IlluminancePoints{{{{-3, 1, 0}, kUp}, {{1.5, 2.5, 0}, kUp}, {{0, 5, 0}, kUp}}}}};
+        const auto guided = estimates_of(scene, sensors, "guided", 1024);
+        const auto path = estimates_of(scene, sensors, "path", 1 << 16);
+        for (std::size_t i = 0; i < path.size(); ++i) {
+            EXPECT_LT(std::abs(statistics::z_score(guided[i], path[i])), 4.5) << size_m << " " << i;
+            EXPECT_LT(guided[i].standard_error, 0.01 * path[i].value) << size_m << " " << i;
         }
     }
 }
@@ -509,7 +532,7 @@ TEST(FarThings, SmallRoomsReadAsAloneBelowTheirPanels) {
         });
 }
 
-/// Of 4 cm and of 40 cm, by all methods, with points between floor and table.
+/// Rooms of 4 cm and of 40 cm are measured by all methods, also between floor and table.
 TEST(FarThings, ChangeNoReadingOfASmallFurnishedRoom) {
     for (const double scale : {0.01, 0.1}) {
         Scene room = furnished_room({});

@@ -92,7 +92,7 @@ TEST(LiftOf, IsAroundTheMeasuredPointsHoweverManyThereAre) {
     }
 }
 
-/// What is farther than 32 extents of the room: its rays are rounded by their own length.
+/// Rays from beyond 32 extents of the room are lifted by a share of their length instead.
 TEST(LiftOf, DoesNotCountWhatLiesBeyondAGap) {
     const std::vector<Vec3> measured{{1, 1, 0}};  // with the lamp, x is at most 2
     for (const double distance_m : {127.9, 128.0, 128.1, 1e6}) {

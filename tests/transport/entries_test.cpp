@@ -122,8 +122,8 @@ TEST(Entries, AreApartByAnEighthOfTheExtent) {
     EXPECT_EQ(entries_of(scene, measured).size(), 3) << "all, the first two, the third";
 }
 
-/// Of 4096 walks, which have three places each within a white room and none outside, one reading of 1024,
-/// 1365 and 2048 has four, three and two.
+/// A walk has three places within a white room, and none outside. Where one of 1024, 1365 or 2048 readings is
+/// inside, four, three or two of the 4096 walks begin there.
 TEST(Entries, HaveEightPlaces) {
     const auto are_found = [](std::size_t readings) {
         Scene scene;

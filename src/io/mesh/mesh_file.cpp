@@ -69,7 +69,7 @@ void MeshBuilder::reserve_triangles(std::size_t count) {
 }
 
 void MeshBuilder::add_normal(const Vec3& normal) {
-    const double size = std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    const double size = largest_coordinate(normal);
     constexpr double kSmallest = 1e-100;  // its square is still a number
     const bool is_usable = size > kSmallest && is_finite(normal);
     file_.mesh.normals.push_back(is_usable ? normalized(normal / size) : Vec3{});

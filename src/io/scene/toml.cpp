@@ -207,7 +207,7 @@ Vec3 TomlItem::vector() const {
 }
 
 Vec3 TomlItem::made_unit(const Vec3& v) const {
-    const double size = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+    const double size = largest_coordinate(v);
     constexpr double smallest = 1e-100;  // its square is still a number
     if (size < smallest) fail("[0, 0, 0] has no direction. Allowed: any other vector.");
     return normalized(v);

@@ -21,8 +21,6 @@ constexpr double kLeastCosine = 1e-3;
 /// The square of a scene's size over the area of its surfaces above which there are cells.
 constexpr double kSparse = 32;
 
-double largest_coordinate(const Vec3& v) { return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}); }
-
 }  // namespace
 
 void CoincidentCrossings::remove_from(std::vector<Crossing>& crossings, double half_extent_m) const {
@@ -169,7 +167,7 @@ RayBundles::RayBundles(const PatchCaster& caster) : caster_(caster), bounds_(bou
     const std::vector<float>& areas_m2 = caster.patches().areas_m2;
     const double area_m2 = std::accumulate(areas_m2.begin(), areas_m2.end(), 0.0);
     const double extent_m = 2 * bounds_.half_extent();
-    has_cells_ = extent_m > 2 * kLargeHalfExtent_m || extent_m * extent_m > kSparse * area_m2;
+    has_cells_ = extent_m > 2 * scene::kLargeHalfExtent_m || extent_m * extent_m > kSparse * area_m2;
 }
 
 void RayBundles::cast(const Bundle& bundle, const LineVisitor& visit) const {

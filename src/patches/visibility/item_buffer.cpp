@@ -19,8 +19,6 @@ namespace {
 constexpr double kRelativeLift = 0x1p-19;
 constexpr double kEdgeMargin = 8;
 
-double largest_coordinate(const Vec3& p) { return std::max({std::abs(p.x), std::abs(p.y), std::abs(p.z)}); }
-
 double longest_edge_m(const Patches& patches, std::uint32_t patch) {
     const auto& [a, b, c] = patches.corners[patch];
     const Vec3 u(patches.vertices[a]), v(patches.vertices[b]), w(patches.vertices[c]);

@@ -20,7 +20,7 @@ inline double split_of_gloss(const materials::SplitMaterial& material) {
 /// relative BRDF s.
 class PartShares {
   public:
-    /// Of a surface without connections: everything is gathered.
+    /// Without connections, gathering rays add all of the light.
     PartShares() = default;
     PartShares(double g_over_k, const materials::SplitMaterial& material)
         : diffuse_{g_over_k}, gloss_{g_over_k * split_of_gloss(material)} {}

@@ -82,8 +82,8 @@ void require_memory(std::size_t factors, std::size_t done, std::size_t samples) 
     if (all <= double{kMostFactors}) return;
     throw InputError(
         fmt::format("first shot replaces the lights by {} points, whose light on all patches would take "
-                    "{:.2g} GB of memory, "
-                    "more than {:.2g} GB. Choose larger patches, or method auto, which needs none.",
+                    "{:.2g} GB of memory, more than {:.2g} GB. Choose larger patches, or method auto, which "
+                    "needs none.",
                     samples, all * sizeof(FirstShotFactors::Factor) * 1e-9,
                     double{kMostFactors} * sizeof(FirstShotFactors::Factor) * 1e-9));
 }

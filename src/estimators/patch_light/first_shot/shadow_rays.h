@@ -106,6 +106,7 @@ class ShadowRays {
 
 // Detection of item buffers that were too coarse.
 
+/// More lines of sight take tens of seconds.
 inline constexpr std::size_t kMostPairs = 100'000'000;
 /// The number of pairs of a side and a light sample that has no pixel on it, though its light reaches the
 /// side's middle. Only sides of a few pixels' size are tested, and of more than kMostPairs pairs those of
