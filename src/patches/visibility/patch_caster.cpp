@@ -32,8 +32,8 @@ std::uint32_t side_met(const Patches& patches, std::uint32_t front, float direct
     return direction_along_normal < 0 ? front : patches.other_side(front);
 }
 
-/// The rays of the lanes. Where the processor has no packets of sixteen, Embree 3.13 traces all rays, whatever
-/// the mask of lanes says, but for those that end before they start.
+/// The rays of the lanes. Where the processor has no packets of sixteen, Embree 3.13 traces all rays,
+/// whatever the mask of lanes says, but for those that end before they start.
 RTCRayHit16 unanswered(const RayPacket& packet, const LaneMask& lanes) {
     RTCRayHit16 rays;
     std::memcpy(&rays.ray, &packet, sizeof packet);
