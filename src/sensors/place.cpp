@@ -88,6 +88,24 @@ class Surroundings {
         return best;
     }
 
+    /// What an eye sees beside the point, of that the nearest: a ray into a corner may slip into a body and
+    /// meet one of its faces from behind. Nothing where none of it is clear of other surfaces.
+    std::optional<rays::Hit> seen_from(const Vec3& eye) const {
+        constexpr double beside = 2, near = 100;  // in margins; surfaces may be seen obliquely
+        const Frame sight = Frame::around(normalized(point_.position - eye));
+        std::optional<rays::Hit> nearest;
+        for (int i = 0; i < 16; ++i) {
+            const Vec3 away = std::cos(i * kPi / 8) * sight.u + std::sin(i * kPi / 8) * sight.v;
+            const Vec3 end = point_.position + beside * margin_m() * away;
+            const auto hit = caster_.closest(eye, normalized(end - eye));
+            if (!hit || length(hit->position - point_.position) > near * margin_m()) continue;
+            if (nearest && hit->distance_m >= nearest->distance_m) continue;
+            const Surroundings there({hit->position, hit->normal}, caster_);
+            if (there.is_clear({hit->position, hit->lifted})) nearest = hit;
+        }
+        return nearest;
+    }
+
   private:
     /// The cosine between the normals of a surface and of a point that lies on it.
     static constexpr double kParallel = 0.99;
@@ -199,7 +217,7 @@ rays::Hit clear_of_walls(const rays::Hit& hit, const Vec3& eye, const rays::RayC
     const auto place = surroundings.best_place([&](const Place& at) {
         return at.surface && at.surface->object == hit.object && !caster.occluded(eye, at.lifted);
     });
-    if (!place) return hit;
+    if (!place) return surroundings.seen_from(eye).value_or(hit);
     rays::Hit moved = *place->surface;
     moved.distance_m = length(moved.position - eye);
     return moved;

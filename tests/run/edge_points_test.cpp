@@ -13,6 +13,7 @@
 #include "run/run.h"
 #include "sensors/place.h"
 #include "statistics/hypothesis.h"
+#include "support/random_pairs.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {
@@ -131,6 +132,34 @@ INSTANTIATE_TEST_SUITE_P(Methods, EdgePointsBy, testing::ValuesIn(methods()), []
     std::erase(name, '-');
     return name;
 });
+
+/// From above into the corners and edges of a box that stands in a room: by rounding, one ray in six slips
+/// into the box and meets a face from behind, which no light reaches.
+TEST(EdgePoints, SightsIntoCornersEndWhereTheEyeSeesThem) {
+    for (const Scene& scene : furnaces()) {
+        const rays::RayCaster caster(scene);
+        RandomPairs random(3);
+        std::size_t ends = 0, unseen = 0;
+        while (ends < 10'000) {
+            Vec3 eye;
+            for (double* x : {&eye.x, &eye.y, &eye.z}) *x = 0.02 + 1.96 * random.next();
+            if (eye.z < 0.7) continue;  // not in the box
+            for (const double x : {0.5, 0.8, 1.2}) {
+                for (const double y : {0.5, 0.9}) {
+                    for (const double z : {0.0, 0.6}) {
+                        const Vec3 end{x, y, z};
+                        const auto hit = caster.closest(eye, normalized(end - eye));
+                        if (!hit || length(hit->position - end) > 1e-4) continue;
+                        const rays::Hit clear = sensors::clear_of_walls(*hit, eye, caster);
+                        ++ends;
+                        if (caster.occluded(eye, clear.lifted) || !clear.on_front) ++unseen;
+                    }
+                }
+            }
+        }
+        EXPECT_LT(unseen, 0.001 * static_cast<double>(ends));
+    }
+}
 
 /// Only a wall that is as near as rounding errors may be crossed.
 TEST(EdgePoints, StayOnTheirSideOfAWall) {
