@@ -11,7 +11,8 @@
 namespace stilb::checks {
 namespace {
 
-/// A surface so close above a point covers it: it stands in a thing, or under it.
+/// A surface so close above a point covers it, where points are not as dense as that: it stands in a thing,
+/// or under it.
 constexpr double kCovering_m = 0.02;
 
 /// Whether something covers a point, or bodies hide it from all lights.
@@ -20,10 +21,10 @@ class HiddenPoints {
     HiddenPoints(const Scene& scene, const rays::RayCaster& caster)
         : scene_(scene), caster_(caster), enclosures_(scene, caster) {}
 
-    bool is_covered(const MeasuringPoint& point) const {
+    bool is_covered(const MeasuringPoint& point, double covering_m) const {
         const ProbeRay probe = probe_of(point);
         const auto above = caster_.closest(probe.position, probe.direction);
-        return above && above->distance_m < kCovering_m && !transmits(scene_.material(above->material));
+        return above && above->distance_m < covering_m && !transmits(scene_.material(above->material));
     }
 
     bool is_dark(const MeasuringPoint& point) const {
@@ -50,14 +51,16 @@ std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCas
         auto* const area = std::get_if<Area>(&sensor.kind);
         if (!area) continue;
         if (!hidden) hidden.emplace(scene, caster);
-        const auto is_covered = [&](const MeasuringPoint& point) { return hidden->is_covered(point); };
+        const double covering_m = std::min(kCovering_m, std::min(area->cell_m[0], area->cell_m[1]) / 2);
+        const auto is_covered = [&](const MeasuringPoint& point) {
+            return hidden->is_covered(point, covering_m);
+        };
         const auto is_dark = [&](const MeasuringPoint& point) { return hidden->is_dark(point); };
         area->left_out += std::erase_if(area->points, is_covered);
         if (area->points.empty()) {
             throw InputError(
                 fmt::format("sensor \"{}\": all {} points of the area are right below a surface. Move the "
-                            "area, or choose "
-                            "another height.",
+                            "area, or choose another height.",
                             sensor.name, area->left_out));
         }
         // Dark points among lit ones stand in furniture. Where all are dark, it is the room that has no lamp.

@@ -275,7 +275,7 @@ TEST(ScenePlanes, MessagesSayWhatIsNeeded) {
     const auto expect = [](const std::string& keys, const std::string& part) {
         EXPECT_NE(refusal(plane(keys)).find(part), std::string::npos) << refusal(plane(keys));
     };
-    expect("margin = 2", "found no floor of a room with a place 2 m away from its walls");
+    expect("margin = 2", "found no floor of a room with a place for a point 2 m away from its walls");
     expect("object = \"room\"\npolygon = [[0, 0, 0], [1, 0, 0], [1, 1, 0]]", "polygon");
     expect("polygon = [[0, 0, 0], [1, 0, 0], [1, 1, 0.1]]", "another height");
     expect("polygon = [[0, 0, 0], [1, 0, 0]]", "too few corners");

@@ -76,7 +76,7 @@ void add_sensor_of_room(Draft& draft, Draw& draw, const Site& site) {
         draft.add_sensor("plane")
             .set("height", number(draw.between(0, 0.4) * site.size().z))
             .set("margin", number(draw.between(0.05, 0.2) * site.least()))
-            .set("spacing", number(0.5 * site.size().x));
+            .set("spacing", number(0.2 * site.size().x));
     } else {
         draft.add_sensor("area")
             .set("room", vector(site.at({0.3, 0.4, 0.4})))

@@ -308,6 +308,17 @@ TEST(Areas, LeaveOutPointsRightBelowASurface) {
     EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 16U);
 }
 
+/// A room of 4 cm, lower than what covers the points of ordinary areas.
+TEST(Areas, OfTinyRoomsKeepTheirPoints) {
+    Scene scene;
+    add_object(scene, inward(Box{{0, 0, 0}, {0.04, 0.04, 0.015}}), diffuse(0.5));
+    add_point_light(scene, {0.01, 0.02, 0.012}, Rgb::grey(1));
+    const Sensor floor = area({{0, 0, 0.001}, {0.04, 0, 0.001}, {0.04, 0.04, 0.001}, {0, 0.04, 0.001}}, 0.01);
+    const RunResult result = measure(scene, {&floor, 1}, options_for("path"));
+    EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 0U);
+    EXPECT_EQ(result.sensors.at(0).readings.size(), 16U);
+}
+
 /// One of two rooms has a lamp. The task area in the other room keeps all of its points, and they read 0.
 TEST(Areas, RoomsWithoutLampsAreDark) {
     Scene scene = room();
