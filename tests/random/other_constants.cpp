@@ -223,7 +223,7 @@ std::span<const OtherConstants> other_constants() {
          "kFromOutside kLeast_m kIlluminance_lx kMostRooms kSky_cd_m2"},
         {"src/sensors/glare.h", "least_sine"},
         {"src/sensors/goniometer.cpp", "rounding per_degree"},
-        {"src/sensors/place.cpp", "kParallel count"},
+        {"src/sensors/place.cpp", "beside count kParallel near"},
         {"src/sensors/sensor.cpp", "all horizontal most"},
         {"src/sensors/sensor.h", "kSensorTypeNames"},
         {"src/statistics/bias.cpp", "kErrors"},
