@@ -70,12 +70,12 @@ struct Frame {
     Vec3 to_local(const Vec3& world) const { return {dot(world, u), dot(world, v), dot(world, w)}; }
 };
 
-// Axis-parallel bounding boxes.
-
 /// The largest of the components' magnitudes.
 inline double largest_coordinate(const Vec3& v) {
     return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
+
+// Axis-parallel bounding boxes.
 
 struct Bounds {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();

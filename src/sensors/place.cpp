@@ -88,8 +88,8 @@ class Surroundings {
         return best;
     }
 
-    /// What an eye sees beside the point, of that the nearest: a ray into a corner may slip into a body and
-    /// meet one of its faces from behind. Nothing where none of it is clear of other surfaces.
+    /// The nearest surface that an eye sees beside the point. A ray into a corner may slip into a body and
+    /// meet one of its faces from behind. Nothing where other surfaces are near to all that the eye sees.
     std::optional<rays::Hit> seen_from(const Vec3& eye) const {
         constexpr double beside = 2, near = 100;  // in margins; surfaces may be seen obliquely
         const Frame sight = Frame::around(normalized(point_.position - eye));

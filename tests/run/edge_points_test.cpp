@@ -143,7 +143,7 @@ TEST(EdgePoints, SightsIntoCornersEndWhereTheEyeSeesThem) {
         while (ends < 10'000) {
             Vec3 eye;
             for (double* x : {&eye.x, &eye.y, &eye.z}) *x = 0.02 + 1.96 * random.next();
-            if (eye.z < 0.7) continue;  // not in the box
+            if (eye.z < 0.7) continue;  // above the box
             for (const double x : {0.5, 0.8, 1.2}) {
                 for (const double y : {0.5, 0.9}) {
                     for (const double z : {0.0, 0.6}) {

@@ -308,6 +308,17 @@ TEST(Areas, LeaveOutPointsRightBelowASurface) {
     EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 16U);
 }
 
+/// Something covers points that lie 1 cm apart if it is less than half of that above them.
+TEST(Areas, OfDensePointsHaveNearerCovers) {
+    for (const double gap_m : {0.0049, 0.0051}) {
+        Scene scene = room();
+        add_object(scene, Rectangle{{2, 2, 0.35 + gap_m}, {0.1, 0, 0}, {0, 0.05, 0}}, diffuse(0.3));
+        const Sensor floor = area({{2, 2, 0.35}, {2.1, 2, 0.35}, {2.1, 2.1, 0.35}, {2, 2.1, 0.35}}, 0.01);
+        const RunResult result = measure(scene, {&floor, 1}, options_for("path"));
+        EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, gap_m < 0.005 ? 50U : 0U);
+    }
+}
+
 /// A room of 4 cm, lower than what covers the points of ordinary areas.
 TEST(Areas, OfTinyRoomsKeepTheirPoints) {
     Scene scene;

@@ -76,9 +76,8 @@ std::vector<WorkingPlane> working_planes(const PolygonInSpace& floor, const Work
 std::string no_plane_message(const WorkingPlaneOptions& options) {
     return fmt::format(
         "found no floor of a room with a place for a point {:g} m away from its walls. A floor is "
-        "horizontal, "
-        "has 1 m² or more, and something 1.8 m or more above it. Needed: a smaller margin or spacing, a "
-        "ceiling, or a sensor with coordinates (type \"area\").",
+        "horizontal, has 1 m² or more, and something 1.8 m or more above it. Needed: a smaller margin or "
+        "spacing, a ceiling, or a sensor with coordinates (type \"area\").",
         options.margin_m);
 }
 
