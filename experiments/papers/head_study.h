@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "cli/fit_report.h"
+#include "cli/commands/fit_report.h"
 #include "run/run.h"
 #include "scene/scene.h"
 

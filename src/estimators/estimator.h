@@ -174,6 +174,9 @@ class Estimator {
     /// The largest single contribution to each reading that the set-up has met, as ReadingSums::largest: a
     /// short run may not meet such a one, and must allow for it. Empty where the set-up takes no samples.
     virtual std::vector<double> expected_largest() const { return {}; }
+    /// Whether what this place reflects of the lamps' light is found only by those rays, one in each sample
+    /// of a reading, that happen to meet it.
+    virtual bool is_met_by_chance(const rays::Hit& /*place*/) const { return false; }
     /// The packet of each reading. Empty where the method has no packets with paces of their own.
     virtual std::vector<std::uint32_t> packets() const { return {}; }
     /// The number of samples of a batch is a multiple of this.

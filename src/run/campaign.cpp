@@ -246,10 +246,10 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
             known.overall = std::max(known.overall, expected_largest_[first + j]);
         all.samples.push_back(samples);
         double rare_light = statistics::rare_light(known, samples);
-        // That no sample found reflected light is no proof that there is none: replicates agree all the same.
-        if ((all.largest[j].overall > 0 || known_part[j].luminance() > 0) && !has_found_reflected(first + j))
-            rare_light =
-                std::max(rare_light, statistics::rare_light({possible_.of(sensor.measurand(j)), 0}, samples));
+        // That all samples agree is no proof where some could have found more light.
+        if (all.largest[j].overall > 0 || known_part[j].luminance() > 0)
+            rare_light = std::max(
+                rare_light, possible_.missed(sensor.measurand(j), largest_reflected(first + j), samples));
         all.rare_light.push_back(rare_light);
     }
     all.readings =
@@ -264,11 +264,10 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
     return all;
 }
 
-bool Campaign::has_found_reflected(std::size_t reading) const {
-    return std::ranges::any_of(replicates_, [&](const Replicate& replicate) {
-        return std::ranges::any_of(replicate.strands,
-                                   [&](const Strand& strand) { return strand.sums.largest[reading] > 0; });
-    });
+double Campaign::largest_reflected(std::size_t reading) const {
+    double largest = 0;
+    for_each_strand([&](const Strand& strand) { largest = std::max(largest, strand.sums.largest[reading]); });
+    return largest;
 }
 
 std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t count) const {

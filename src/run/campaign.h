@@ -122,8 +122,8 @@ class Campaign final : public Work {
     Rgb mean(const Replicate& replicate, std::size_t reading) const {
         return replicate.sum(reading) * (1 / static_cast<double>(replicate.taken(packets_[reading])));
     }
-    /// Whether a sample of the reading has found light that does not come straight from a lamp.
-    bool has_found_reflected(std::size_t reading) const;
+    /// The largest contribution to a sample of light that does not come straight from a lamp.
+    double largest_reflected(std::size_t reading) const;
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
     std::vector<statistics::LargestContributions> largest(std::size_t first, std::size_t count) const;
     /// Replicates x readings: by how much path tracing finds more light, luminance-weighted.

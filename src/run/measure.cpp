@@ -311,7 +311,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
         glare.emplace(sensors, setting, plan.replicates,
                       math::RandomKey{options.seed}.derived(kReadingGlare));
     });
-    const PossibleLight possible(scene, session.caster(), problem.max_reflections);
+    const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
     Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(),
                       math::RandomKey{options.seed}.derived(kReadingReplicates), plan,
                       std::min(sharp.samples, kMostAwaited));

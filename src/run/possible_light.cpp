@@ -2,15 +2,22 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
+#include <functional>
 
+#include "statistics/interval.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::run {
 namespace {
 
 /// Particles that find surfaces that reflect light, and estimates of lamps for them.
-constexpr std::size_t kParticles = 128, kMostEstimates = 1'000'000;
+constexpr std::size_t kParticles = 1024, kMostEstimates = 1'000'000;
+/// Contributions that are larger than others by this factor are of another kind.
+constexpr double kBrighter = 2;
+/// None of so many expected samples comes with a probability of 2 %.
+constexpr double kMayMiss = 4;
+/// Standard errors of the particles' light by which it may be more.
+constexpr double kUnsure = 2;
 
 /// The height of the box's highest corner above a surface element.
 double height_above(const MeasuringPoint& at, const Bounds& box) {
@@ -21,7 +28,8 @@ double height_above(const MeasuringPoint& at, const Bounds& box) {
 
 }  // namespace
 
-PossibleLight::PossibleLight(const Scene& scene, const rays::RayCaster& caster, int max_reflections)
+PossibleLight::PossibleLight(const Scene& scene, const rays::RayCaster& caster, int max_reflections,
+                             const estimators::Estimator& estimator)
     : scene_(scene), caster_(caster), lights_(scene, caster) {
     if (max_reflections == 0) return;
     for (const Object& object : scene.objects) {
@@ -30,40 +38,81 @@ PossibleLight::PossibleLight(const Scene& scene, const rays::RayCaster& caster, 
         });
         if (reflects) reflecting_.push_back(bounds_of(object.shape));
     }
-    if (!reflecting_.empty() && lights_.count() > 0) find_lit();
+    if (!reflecting_.empty() && lights_.count() > 0) find_lit(estimator);
 }
 
-void PossibleLight::find_lit() {
+void PossibleLight::find_lit(const estimators::Estimator& estimator) {
     const std::size_t particles = std::clamp<std::size_t>(kMostEstimates / lights_.count(), 1, kParticles);
     for (std::size_t i = 0; i < particles; ++i) {
         math::SampleStream stream(math::RandomKey{}, i);
         const transport::EmittedParticle particle = lights_.sample_emission(stream);
         const auto hit = caster_.closest(particle.origin, particle.direction);
         if (!hit) continue;
-        const double reflectance = reflectance_bound(scene_.material(hit->material)).luminance();
+        const Material& material = scene_.material(hit->material);
+        const double reflectance = reflectance_bound(material).luminance();
         const double lx = all_lx(hit->position, hit->normal);
-        if (reflectance > 0 && lx > 0) lit_.push_back({hit->lifted, hit->normal, reflectance, lx});
+        if (!(reflectance > 0 && lx > 0)) continue;
+        const double reflected_lm =
+            reflectance * particle.flux_lm.luminance() / static_cast<double>(particles);
+        lit_.push_back({hit->lifted, hit->normal, reflectance, lx, reflected_lm});
+        if (!is_specular(material) && estimator.is_met_by_chance(*hit)) met_by_chance_.push_back(lit_.back());
     }
+    std::ranges::stable_sort(met_by_chance_, std::greater{}, &Lit::sample_lx);
 }
 
-double PossibleLight::of(const Measurand& measurand) const {
-    if (reflecting_.empty()) return 0;
-    if (const auto* point = std::get_if<MeasuringPoint>(&measurand)) return light_lx(*point);
+double PossibleLight::missed(const Measurand& measurand, double largest, std::uint64_t samples) const {
+    if (reflecting_.empty() || (largest > 0 && met_by_chance_.empty())) return 0;
+    if (const auto* point = std::get_if<MeasuringPoint>(&measurand))
+        return missed_lx(*point, largest, samples);
     if (const auto* body = std::get_if<BodyPoint>(&measurand))
-        return light_lx({body->position, body->axis}) + light_lx({body->position, -body->axis});
+        return missed_lx({body->position, body->axis}, largest, samples) +
+               missed_lx({body->position, -body->axis}, largest, samples);
     const auto surface = transport::first_surface(measurand, caster_);
-    return surface ? light_lx({surface->position, surface->normal}) / std::numbers::pi : 0;
+    if (!surface) return 0;
+    return missed_lx({surface->position, surface->normal}, kPi * largest, samples) / kPi;
+}
+
+double PossibleLight::missed_lx(const MeasuringPoint& at, double largest_lx, std::uint64_t samples) const {
+    const double lift_m = caster_.offset_m(at.position, caster_.lift().largest_size_m());
+    const auto is_above = [&](const Bounds& box) { return height_above(at, box) > 2 * lift_m; };
+    if (std::ranges::none_of(reflecting_, is_above)) return 0;
+    const Vec3 lifted = at.position + lift_m * at.normal;
+    const double rare = rare_lx(at, lifted, largest_lx, samples);
+    if (largest_lx > 0) return rare;
+    const double sample_lx = std::max(all_lx(at.position, at.normal), seen_lx(at, lifted));
+    return std::max(rare, statistics::rare_light({sample_lx, 0}, samples));
+}
+
+double PossibleLight::rare_lx(const MeasuringPoint& at, const Vec3& lifted, double largest_lx,
+                              std::uint64_t samples) const {
+    const auto count = static_cast<double>(samples);
+    double light_lx = 0, squares = 0, met = 0, brightest_lx = 0;
+    for (const Lit& lit : met_by_chance_) {
+        if (!(lit.sample_lx() > kBrighter * largest_lx)) break;
+        const double of_it_lx = lit.reflected_lm / kPi * seen_per_m2(at, lifted, lit);
+        met += count * of_it_lx / lit.sample_lx();
+        if (met > kMayMiss) break;
+        if (of_it_lx > 0) brightest_lx = std::max(brightest_lx, lit.sample_lx());
+        light_lx += of_it_lx;
+        squares += of_it_lx * of_it_lx;
+    }
+    return std::min(light_lx + kUnsure * std::sqrt(squares), kMayMiss * brightest_lx / count);
+}
+
+double PossibleLight::seen_per_m2(const MeasuringPoint& at, const Vec3& lifted, const Lit& lit) const {
+    const Vec3 offset = lit.lifted - lifted;
+    const double along = -dot(offset, lit.normal), above = dot(offset, at.normal);
+    if (along <= 0 || above <= 0) return 0;
+    if (!(caster_.transmittance({lifted, lit.lifted}).max() > 0)) return 0;
+    const double squared = squared_length(offset);
+    return along * above / (squared * squared);
 }
 
 double PossibleLight::seen_lx(const MeasuringPoint& at, const Vec3& lifted) const {
     // Particles carry about equal light, so that each stands for an area of 1 / illuminance.
     double light = 0, area = 0;
     for (const Lit& lit : lit_) {
-        const Vec3 offset = lit.lifted - lifted;
-        const double along = -dot(offset, lit.normal), above = dot(offset, at.normal);
-        if (along <= 0 || above <= 0) continue;
-        if (!(caster_.transmittance({lifted, lit.lifted}).max() > 0)) continue;
-        const double squared = squared_length(offset), seen = along * above / (squared * squared);
+        const double seen = seen_per_m2(at, lifted, lit);
         light += seen * lit.reflectance;
         area += seen / lit.all_lx;
     }
@@ -73,15 +122,8 @@ double PossibleLight::seen_lx(const MeasuringPoint& at, const Vec3& lifted) cons
 double PossibleLight::all_lx(const Vec3& position, const Vec3& normal) const {
     double sum_lx = 0;
     for (std::size_t light = 0; light < lights_.count(); ++light)
-        sum_lx += lights_.rough_illuminance_lx(light, position, normal);
+        sum_lx += lights_.rough_illuminance_lx(light, position, normal) / lights_.choice_favour(light);
     return sum_lx;
-}
-
-double PossibleLight::light_lx(const MeasuringPoint& at) const {
-    const double lift_m = caster_.offset_m(at.position, caster_.lift().largest_size_m());
-    const auto is_above = [&](const Bounds& box) { return height_above(at, box) > 2 * lift_m; };
-    if (std::ranges::none_of(reflecting_, is_above)) return 0;
-    return std::max(all_lx(at.position, at.normal), seen_lx(at, at.position + lift_m * at.normal));
 }
 
 }  // namespace stilb::run

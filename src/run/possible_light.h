@@ -1,8 +1,10 @@
-// The light that a reading may have missed where no sample found any.
+// The light that the samples of a reading may all have missed.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
+#include "estimators/estimator.h"
 #include "sensors/sensor.h"
 #include "transport/light_sampler.h"
 
@@ -11,31 +13,42 @@ namespace stilb::run {
 /// Keeps references to the scene and to the caster.
 class PossibleLight {
   public:
-    PossibleLight(const Scene& scene, const rays::RayCaster& caster, int max_reflections);
+    PossibleLight(const Scene& scene, const rays::RayCaster& caster, int max_reflections,
+                  const estimators::Estimator& estimator);
 
-    /// About the largest contribution of a single sample of reflected light: the light of all lamps there
-    /// without shadows, by which methods choose among lamps, or what surfaces reflect that the reading sees,
-    /// if that is more. 0 where nothing can reflect light to the reading.
-    double of(const Measurand& measurand) const;
+    /// About the light that so many samples of a reading may all have missed, though surfaces reflect it to
+    /// the reading [lx or cd/m2]. `largest`: the largest contribution of reflected light that one of them has
+    /// found; smaller ones do not count.
+    double missed(const Measurand& measurand, double largest, std::uint64_t samples) const;
 
   private:
     /// A place that a particle of a lamp has met.
     struct Lit {
         Vec3 lifted, normal;
         double reflectance = 0, all_lx = 0;
+        double reflected_lm = 0;  ///< of the particle
+
+        /// The contribution of a sample that meets the place, by a ray that is cosine-distributed.
+        double sample_lx() const { return reflectance * all_lx; }
     };
-    void find_lit();
-    double light_lx(const MeasuringPoint& at) const;
+    void find_lit(const estimators::Estimator& estimator);
+    double missed_lx(const MeasuringPoint& at, double largest_lx, std::uint64_t samples) const;
     /// The unshadowed light of all lamps.
     double all_lx(const Vec3& position, const Vec3& normal) const;
+    /// For places that a point sees: the cosines over the squared distance [1/m2]; else 0.
+    double seen_per_m2(const MeasuringPoint& at, const Vec3& lifted, const Lit& lit) const;
     /// The mean light that lit places reflect, over those that are seen from there; 0 without any.
     double seen_lx(const MeasuringPoint& at, const Vec3& lifted) const;
+    /// The light of the brightest places that only few of the samples meet.
+    double rare_lx(const MeasuringPoint& at, const Vec3& lifted, double largest_lx,
+                   std::uint64_t samples) const;
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
     transport::LightSampler lights_;
     std::vector<Bounds> reflecting_;  ///< of the objects that reflect light
     std::vector<Lit> lit_;
+    std::vector<Lit> met_by_chance_;  ///< of these; the brightest first
 };
 
 }  // namespace stilb::run

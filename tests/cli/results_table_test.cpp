@@ -1,4 +1,4 @@
-#include "cli/results_table.h"
+#include "cli/commands/results_table.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -183,7 +183,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/run/passes.h", "kBiasesOfMostPixels"},
         {"src/run/pictures/picture_comparison.cpp", "kPixels kReplicates kPathsOfAReplicate"},
         {"src/run/pictures/picture_paces.cpp", "kPixelReserve kEdge packets"},
-        {"src/run/possible_light.cpp", "kParticles kMostEstimates"},
+        {"src/run/possible_light.cpp", "kParticles kMostEstimates kUnsure"},
         {"src/run/power_density.cpp", "none kRecess_m"},
         {"src/run/render.cpp",
          "kPictureReplicates kPatchPictureReplicates kDefaultTime_s "

@@ -46,6 +46,13 @@ std::span<const Threshold> thresholds() {
         {"kMostLightSamples", "src/estimators/patch_light/first_shot/lights.h", "32",
          "points of a small lamp of first shot; a larger lamp emits from patches",
          "tests/run/many_lamps_test.cpp: lamps of 31, 32 and 33 vertices"},
+        // Light that samples may have missed.
+        {"kBrighter", "src/run/possible_light.cpp", "2",
+         "a place's contribution: far above those that were found, or met",
+         "tests/run/weak_lamp_test.cpp: 1 % less and 5 % more"},
+        {"kMayMiss", "src/run/possible_light.cpp", "4",
+         "expected samples on bright places: all may miss them, or not",
+         "tests/run/weak_lamp_test.cpp: 1000 to 1e9 samples"},
         // Places that measured points see, for light paths of the sky.
         {"kApart", "src/transport/entries.cpp", "1.0 / 8", "places: one group, or two",
          "tests/transport/entries_test.cpp: rooms 1.1, 8/7 and 1.2 m apart"},

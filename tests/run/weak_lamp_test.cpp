@@ -3,9 +3,11 @@
 
 #include <cmath>
 
+#include "estimators/estimator_list.h"
 #include "run/possible_light.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
+#include "transport/receiver.h"
 
 namespace stilb::run {
 namespace {
@@ -134,17 +136,29 @@ TEST(WeakLamp, LightOfSmallThingsThatNoSampleFoundIsAllowedFor) {
 }
 
 /// A ground far below the room does not make its walls seem too near to reflect light.
+/// The light that samples of `method` may miss.
+double missed_lx(const Scene& scene, const MeasuringPoint& at, const char* method, int max_reflections = 100,
+                 double largest_lx = 0, std::uint64_t samples = 1000) {
+    const rays::RayCaster caster(scene);
+    const Measurand measurand = at;
+    estimators::Problem problem{.scene = scene,
+                                .caster = caster,
+                                .max_reflections = max_reflections,
+                                .preparation_key = math::RandomKey{1}};
+    problem.measurands = {&measurand, 1};
+    const auto estimator = estimators::find_estimator(method).make(problem);
+    return PossibleLight(scene, caster, max_reflections, *estimator).missed(measurand, largest_lx, samples);
+}
+
 TEST(WeakLamp, IsPossibleWhateverLiesElsewhere) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {3, 3, 1.5}}, diffuse(0.5));
     add_point_light(scene, {1, 1, 1}, Rgb::grey(1));
     const MeasuringPoint floor{{1, 2, 0}, {0, 0, 1}};
-    const rays::RayCaster alone_caster(scene);
-    const double alone_lx = PossibleLight(scene, alone_caster, 100).of(floor);
+    const double alone_lx = missed_lx(scene, floor, "local");
     EXPECT_GT(alone_lx, 0);
     add_object(scene, Rectangle{{-5e5, -5e5, -1}, {1e6, 0, 0}, {0, 1e6, 0}}, diffuse(0.5));
-    const rays::RayCaster caster(scene);
-    EXPECT_NEAR(PossibleLight(scene, caster, 100).of(floor), alone_lx, 1e-9 * alone_lx);
+    EXPECT_NEAR(missed_lx(scene, floor, "local"), alone_lx, 1e-9 * alone_lx);
 }
 
 /// What lies no higher above the reading than rays tell apart reflects nothing to it; what is higher may.
@@ -154,8 +168,7 @@ TEST(WeakLamp, IsPossibleWhereSomethingIsAboveTheReading) {
         add_object(scene, Rectangle{{0, 0, 0}, {3, 0, 0}, {0, 3, 0}}, diffuse(0.5));
         add_object(scene, Box{{2, 2, -1}, {2.5, 2.5, top_m}}, diffuse(reflectance));
         add_point_light(scene, {1, 1, 1}, Rgb::grey(1));
-        const rays::RayCaster caster(scene);
-        return PossibleLight(scene, caster, max_reflections).of(MeasuringPoint{{1, 1, 0}, {0, 0, 1}});
+        return missed_lx(scene, {{1, 1, 0}, {0, 0, 1}}, "local", max_reflections);
     };
     const double lift_m = 0x1p-19 * 1.5;  // the scene extends 1.5 m around its middle
     EXPECT_EQ(possible_lx(-0.1, 0.5, 100), 0);
@@ -165,6 +178,64 @@ TEST(WeakLamp, IsPossibleWhereSomethingIsAboveTheReading) {
     EXPECT_EQ(possible_lx(0.1, 0.5, 0), 0);
     EXPECT_EQ(possible_lx(0.1, 0, 100), 0);
     EXPECT_GT(possible_lx(0.1, 1e-9, 100), 0);
+}
+
+/// A ball beside the lamp reflects a tenth of its light, and few rays meet it: replicates without one agree.
+Scene room_with_ball_beside_lamp(const Shape& ball) {
+    Scene scene;
+    add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, diffuse(0.02));
+    add_object(scene, ball, diffuse(0.8));
+    add_point_light(scene, {2, 2, 2.03}, Rgb::grey(100));
+    return scene;
+}
+constexpr Sphere kBall{{2, 2, 2}, 0.02};
+
+TEST(WeakLamp, IntervalsReachLightThatFewRaysMeet) {
+    const Scene scene = room_with_ball_beside_lamp(kBall);
+    const Sensor sensor{"wall", IlluminancePoints{{{{0, 2, 2.3}, {1, 0, 0}}}}};
+    const auto right = measured(scene, sensor, "local", 1 << 22, 1);
+    ASSERT_LT(right.standard_error, 2e-3 * right.value);
+    for (const char* method : {"path", "guided"}) {
+        int narrow = 0, below = 0;
+        for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+            const auto found = measured(scene, sensor, method, 512, seed);
+            narrow += found.upper < right.value || found.lower > right.value;
+            below += found.value + 3 * found.standard_error < right.value;
+        }
+        EXPECT_GE(below, 4) << method;  // else nothing is rare here
+        EXPECT_LE(narrow, 1) << method;
+    }
+}
+
+TEST(WeakLamp, AllowsForRareLightWhereAMethodNeedsRaysForIt) {
+    const MeasuringPoint at{{0, 2, 2.3}, {1, 0, 0}};
+    const Scene ball = room_with_ball_beside_lamp(kBall);
+    const Scene cube = room_with_ball_beside_lamp(Box{{1.98, 1.98, 1.98}, {2.02, 2.02, 2.02}});
+    constexpr double of_walls_lx = 0.02 * 100;
+    EXPECT_GT(missed_lx(ball, at, "path", 100, of_walls_lx), 0.01);
+    EXPECT_GT(missed_lx(cube, at, "path", 100, of_walls_lx), 0.01);
+    // The guess knows the light of flat surfaces, and light paths connect all.
+    EXPECT_GT(missed_lx(ball, at, "guided", transport::kUnlimited, of_walls_lx), 0.01);
+    EXPECT_EQ(missed_lx(cube, at, "guided", transport::kUnlimited, of_walls_lx), 0);
+    EXPECT_EQ(missed_lx(ball, at, "local", 100, of_walls_lx), 0);
+}
+
+/// The ball's brightest places, 1 cm below the lamp, reflect 0.8 of 1e6 lx. Its light is 2 lx: one of some
+/// 400,000 rays meets where that comes from.
+TEST(WeakLamp, CountsAsMetWhereASampleWasHalfAsBrightOrSamplesAreMany) {
+    const MeasuringPoint at{{0, 2, 2.3}, {1, 0, 0}};
+    const Scene scene = room_with_ball_beside_lamp(kBall);
+    EXPECT_GT(missed_lx(scene, at, "path", 100, 0.95 * 4e5), 0);
+    EXPECT_EQ(missed_lx(scene, at, "path", 100, 1.01 * 4e5), 0);
+    const double few_lx = missed_lx(scene, at, "path", 100, 2, 1000);
+    EXPECT_NEAR(missed_lx(scene, at, "path", 100, 2, 100'000), few_lx, 1e-9);
+    double before_lx = few_lx;
+    for (const std::uint64_t samples : {10'000'000, 100'000'000, 1'000'000'000}) {
+        const double lx = missed_lx(scene, at, "path", 100, 2, samples);
+        EXPECT_LT(lx, before_lx) << samples;
+        EXPECT_LE(lx, 4 * 8e5 / static_cast<double>(samples)) << samples;
+        before_lx = lx;
+    }
 }
 
 }  // namespace

@@ -77,7 +77,7 @@ class CheckIncludes(unittest.TestCase):
             "toml++/toml.h": ("io/scene/scene_file.cpp", "scene/scene.cpp"),
             "epoxy/gl.h": ("patches/visibility/opengl_item_buffers.cpp", "patches/patches.cpp"),
             "cairo-svg.h": ("plot/canvas.cpp", "plot/plot.cpp"),
-            "CLI/CLI.hpp": ("cli/command_line.cpp", "cli/measure.cpp"),
+            "CLI/CLI.hpp": ("cli/command_line.cpp", "cli/commands/measure.cpp"),
             "nlohmann/json.hpp": ("io/results/results_json.cpp", "estimators/path/path.cpp"),
             "tbb/parallel_for.h": ("base/parallel.cpp", "rays/ray_caster.cpp"),
             "boost/math/distributions/normal.hpp": ("statistics/interval.cpp", "scene/scene.cpp"),

@@ -108,6 +108,9 @@ class LocalReadings {
 
     std::span<const Rgb> known_part() const { return seen_.known_part; }
     std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
+    bool is_met_by_chance(const rays::Hit& place) const {
+        return guided_ && guided_->is_met_by_chance(place);
+    }
     std::vector<double> expected_largest() const {
         std::vector<double> all(seen_.known_part.size());
         for (std::size_t j = 0; j < plans_.of_receivers.size(); ++j) {
@@ -400,6 +403,7 @@ class LocalEstimation final : public Estimator {
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::vector<double> expected_largest() const override { return readings_.expected_largest(); }
+    bool is_met_by_chance(const rays::Hit& place) const override { return readings_.is_met_by_chance(place); }
     std::vector<std::uint32_t> packets() const override { return readings_.packets(); }
     std::uint64_t batch_granularity() const override { return readings_.batch_granularity(); }
     std::uint64_t first_check() const override { return readings_.first_check(); }

@@ -138,6 +138,7 @@ class PathEstimator final : public Estimator {
 
     std::span<const Rgb> known_part() const override { return known_part_; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return sight_ends_; }
+    bool is_met_by_chance(const rays::Hit& /*place*/) const override { return !paths_.patches; }
     std::uint64_t batch_granularity() const override { return 1; }
     /// Rare bright paths dominate the error.
     std::uint64_t first_check() const override { return 256; }

@@ -84,7 +84,8 @@ class GuidedReadings {
     bool can_have_paces() const { return general_tiles_.empty(); }
     /// Adds the light that needs no samples.
     void add_known(std::span<Rgb> readings) const;
-    /// As Estimator's.
+    // As Estimator's.
+    bool is_met_by_chance(const rays::Hit& place) const { return light_.guess.is_traced(place); }
     double rays_per_sample() const;
     /// As Estimator's, where each receiver stands for so many.
     double cost_per_sample(double stands_for) const;

@@ -1,4 +1,4 @@
-#include "cli/info/info_report.h"
+#include "cli/commands/info/info_report.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -7,7 +7,7 @@
 
 #include "base/vec.h"
 #include "checks/checks.h"
-#include "cli/info/ugr_report.h"
+#include "cli/commands/info/ugr_report.h"
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"

@@ -1,4 +1,4 @@
-#include "cli/import_ifc.h"
+#include "cli/commands/import_ifc.h"
 
 #include <spawn.h>
 #include <sys/wait.h>

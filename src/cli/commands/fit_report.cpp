@@ -1,4 +1,4 @@
-#include "cli/fit_report.h"
+#include "cli/commands/fit_report.h"
 
 #include <fmt/format.h>
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "cli/import_ifc.h"
+#include "cli/commands/import_ifc.h"
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
 #include "io/import/scene_folder.h"

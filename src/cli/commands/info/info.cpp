@@ -13,8 +13,8 @@
 #include <vector>
 
 #include "cli/command_line.h"
-#include "cli/info/info_report.h"
-#include "cli/info/ugr_report.h"
+#include "cli/commands/info/info_report.h"
+#include "cli/commands/info/ugr_report.h"
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
 #include "io/import/obj/obj_scene.h"

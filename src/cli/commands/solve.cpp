@@ -11,7 +11,7 @@
 #include "cli/command_line.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
-#include "cli/results_table.h"
+#include "cli/commands/results_table.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/results/results_text.h"

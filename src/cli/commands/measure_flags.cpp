@@ -1,4 +1,4 @@
-#include "cli/measure_flags.h"
+#include "cli/commands/measure_flags.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -1,4 +1,4 @@
-#include "cli/info/ugr_report.h"
+#include "cli/commands/info/ugr_report.h"
 
 #include <fmt/format.h>
 

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "cli/command_line.h"
-#include "cli/fit_report.h"
+#include "cli/commands/fit_report.h"
 #include "cli/progress.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/mesh/mesh_file.h"

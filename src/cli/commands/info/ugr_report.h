@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "cli/info/info_report.h"
+#include "cli/commands/info/info_report.h"
 #include "io/photometry/photometry_file.h"
 
 namespace stilb::cli {

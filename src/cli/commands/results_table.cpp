@@ -1,5 +1,5 @@
 
-#include "cli/results_table.h"
+#include "cli/commands/results_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
