@@ -9,9 +9,9 @@
 
 #include "cli/command_line.h"
 #include "cli/commands/measure_flags.h"
+#include "cli/commands/results_table.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
-#include "cli/commands/results_table.h"
 #include "cli/scene_argument.h"
 #include "estimators/estimator_list.h"
 #include "io/import/rtrace.h"

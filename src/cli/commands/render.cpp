@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "cli/command_line.h"
+#include "cli/commands/results_table.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
-#include "cli/commands/results_table.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/image/picture_file.h"

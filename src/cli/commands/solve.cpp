@@ -9,9 +9,9 @@
 #include <utility>
 
 #include "cli/command_line.h"
+#include "cli/commands/results_table.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
-#include "cli/commands/results_table.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
 #include "io/results/results_text.h"
