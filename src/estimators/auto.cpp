@@ -9,6 +9,7 @@
 // samples with random keys of their own: the result is unbiased, too.
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -65,6 +66,9 @@ constexpr std::uint64_t kPilotPasses = 4, kPilotReplicates = 2;
 /// The processor time of a pass by the guess over that of one without, where all is diffuse, and with gloss,
 /// whose light comes by light paths in both (docs/performance.md).
 constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.5;
+/// What that grows by for each gathering ray of a pixel that path tracing continues: next to none in rooms,
+/// nearly all of them near a ground of kilometres.
+constexpr double kContinuedCost = 2.5;
 
 /// The readings of the parts of a pilot.
 struct Pilot {
@@ -283,7 +287,7 @@ std::vector<PixelBlock> pilot_blocks(const std::array<int, 2>& resolution) {
 }
 
 /// The luminances of the blocks' pixels in each replicate; the cost is that of a pass, in passes without a
-/// guess.
+/// guess. `cost`: without that of continued rays.
 Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resolution, double cost,
                         PilotPurpose purpose) {
     const std::vector<PixelBlock> blocks = pilot_blocks(resolution);
@@ -292,12 +296,13 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
         passes[i] = method.start({kPilotKey.derived(purpose).derived(i / kPilotPasses), i % kPilotPasses});
     });
     std::vector<std::array<std::vector<double>, kPilotReplicates>> luminances(blocks.size());
+    std::atomic<std::uint64_t> continued = 0;
     parallel_for(blocks.size(), [&](std::size_t b) {
         std::vector<Rgb> samples(static_cast<std::size_t>(blocks[b].width * blocks[b].height));
         for (std::size_t i = 0; i < passes.size(); ++i) {
             std::vector<double>& sums = luminances[b][i / kPilotPasses];
             sums.resize(samples.size());
-            passes[i]->sample(blocks[b], samples);
+            continued += passes[i]->sample(blocks[b], samples).continued;
             for (std::size_t j = 0; j < samples.size(); ++j) sums[j] += samples[j].luminance() / kPilotPasses;
         }
     });
@@ -308,6 +313,8 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
             pilot.deviations.push_back(std::abs(first[j] - second[j]) / std::numbers::sqrt2);
         }
     }
+    const auto samples = static_cast<double>(passes.size() * pilot.means.size());
+    pilot.cost += kContinuedCost * static_cast<double>(continued) / samples;
     return pilot;
 }
 

@@ -15,6 +15,7 @@ ReadingSums& ReadingSums::operator+=(const ReadingSums& batch) {
     comparisons += batch.comparisons;
     rays += batch.rays;
     invalid += batch.invalid;
+    continued += batch.continued;
     return *this;
 }
 namespace {

@@ -83,7 +83,8 @@ struct ReadingSums {
     std::vector<double> largest;        ///< largest single contribution to each reading, before division
     std::vector<float> largest_direct;  ///< the same of light that comes straight from lamps
     std::uint64_t rays = 0;
-    std::uint64_t invalid = 0;  ///< non-finite contributions, which are left out
+    std::uint64_t invalid = 0;    ///< non-finite contributions, which are left out
+    std::uint64_t continued = 0;  ///< rays that path tracing continues beyond a guess
     /// Methods on patches: what the readings lack, by path tracing behind the same rays for some of the
     /// samples [lx or cd/m2, x comparisons]; empty for other methods.
     std::vector<Rgb> lacking;
@@ -154,9 +155,13 @@ class PicturePass {
   public:
     virtual ~PicturePass() = default;
 
-    /// Writes one unbiased sample of every pixel's luminance [cd/m2] of a block, row by row; returns the
-    /// number of non-finite samples: these are set to 0. Blocks may run in parallel.
-    virtual std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const = 0;
+    struct Sampled {
+        std::uint64_t invalid = 0;    ///< non-finite samples; they are set to 0
+        std::uint64_t continued = 0;  ///< as ReadingSums'
+    };
+    /// Writes one unbiased sample of every pixel's luminance [cd/m2] of a block, row by row. Blocks may run
+    /// in parallel.
+    virtual Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const = 0;
 };
 
 class Estimator {

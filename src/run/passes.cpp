@@ -84,7 +84,7 @@ std::vector<PicturePaces::Part> Passes::parts_of_pass() const {
 void Passes::sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
     std::array<Rgb, std::size_t{estimators::kBlockSize} * estimators::kBlockSize> samples;
     const std::size_t count = static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
-    invalid_ += pass.sample(block, {samples.data(), count});
+    invalid_ += pass.sample(block, {samples.data(), count}).invalid;
     for (std::size_t i = 0; i < count; ++i) {
         const std::size_t x =
             static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);

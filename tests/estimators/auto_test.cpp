@@ -1,6 +1,7 @@
 // Which technique method auto chooses. The granularity of its batches tells which one it is.
 #include <gtest/gtest.h>
 
+#include <utility>
 #include <vector>
 
 #include "estimators/estimates.h"
@@ -112,6 +113,43 @@ TEST(Auto, TakesNoLightPathsWhereTheyMissTheLight) {
         Problem limited = choice.problem();
         limited.max_reflections = 2;
         EXPECT_EQ(make_auto(limited)->batch_granularity(), make_path(limited)->batch_granularity()) << edge;
+    }
+}
+
+/// One sample of some pixels of a view into the room.
+std::vector<Rgb> some_pixels(const Choice& choice, Maker make) {
+    Problem problem = choice.problem();
+    problem.camera = Camera{};
+    problem.camera->position = {1.5, 0.3, 1.5};
+    problem.camera->target = {1.5, 3, 1};
+    problem.camera->fov_deg = 90;
+    problem.camera->resolution = {32, 32};
+    const auto estimator = make(problem);
+    std::vector<Rgb> pixels(64);
+    estimator->start({math::RandomKey{3}, 0})->sample({12, 22, 8, 8}, pixels);
+    return pixels;
+}
+
+/// Beside a ground of 2 km, connections to what the guess lacks are few for their area, and nearly each ray
+/// is continued by path tracing, ten times as dear: light paths take a tenth of the time.
+TEST(Auto, TakesNoGuessForPicturesBesideALargeGround) {
+    for (const bool has_ground : {false, true}) {
+        Scene scene;
+        const Box room{{0, 0, 0}, {3, 3, 3}};
+        for (const std::size_t axis : {0, 1, 2})
+            for (const Side side : {Side::low, Side::high})
+                if (axis != 1 || side == Side::low) add_object(scene, wall(room, axis, side), diffuse(0.7));
+        add_object(scene, Rectangle{{0, 3, 0}, {3, 0, 0}, {0, 0, 2}}, diffuse(0.7));
+        for (const Vec3& lamp : {Vec3{2.3, 1, 1.3}, Vec3{0.7, 2.3, 2}, Vec3{0.7, 0.9, 1.2}})
+            add_area_light(scene, Sphere{lamp, 0.03}, Rgb::grey(1e5));
+        add_environment(scene, Rgb::grey(50));
+        if (has_ground)
+            add_object(scene, Rectangle{{-1000, -1000, -5}, {2000, 0, 0}, {0, 2000, 0}}, diffuse(0.5));
+        const Choice choice(std::move(scene), {});
+        const std::vector<Rgb> guided = some_pixels(choice, make_guided),
+                               balanced = some_pixels(choice, make_balanced);
+        ASSERT_TRUE(guided != balanced);
+        EXPECT_TRUE(some_pixels(choice, make_auto) == (has_ground ? balanced : guided)) << has_ground;
     }
 }
 

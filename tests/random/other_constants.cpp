@@ -32,7 +32,7 @@ std::span<const OtherConstants> other_constants() {
          "rounding kReplicates kPilots kPlanningRayCost kPatchCost kWorthPlanning "
          "kPathPilotCost kLeastPaths kQuickPilotCost kLeastQuickPaths kClearly "
          "kSobolGain kComparedPaths kGuidedSamples kPilotBlock kPilotRows kPilotPasses "
-         "kPilotReplicates kGuidedPassCost kGlossyPassCost"},
+         "kPilotReplicates kGuidedPassCost kGlossyPassCost kContinuedCost"},
         {"src/estimators/camera_paths.cpp", "sobol_dimensions deviation kPacketSobolDimensions"},
         {"src/estimators/camera_paths.h", "kPixels"},
         {"src/estimators/estimator.h", "kBlockSize kPacketSide"},

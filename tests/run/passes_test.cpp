@@ -47,7 +47,7 @@ class MadeUpPicture final : public estimators::Estimator {
       public:
         MadeUpPass(const MadeUpPicture& picture, const Pass& pass) : picture_(picture), pass_(pass) {}
 
-        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             const std::lock_guard lock(picture_.mutex_);
             for (std::size_t i = 0; i < pixels.size(); ++i) {
                 const int x = block.left + static_cast<int>(i) % block.width;
@@ -57,7 +57,7 @@ class MadeUpPicture final : public estimators::Estimator {
                 const double u = math::SampleStream(pass_.key.derived(pixel), pass_.index, 0).next();
                 pixels[i] = Rgb::grey(picture_.luminance_(pass_, x, u));
             }
-            return 0;
+            return {};
         }
 
       private:

@@ -25,12 +25,12 @@ class LightPathPicture final : public LocalPicture {
         LightPathPass(const LightPathPicture& picture, const Pass& pass)
             : picture_(picture), pass_(pass), pool_(picture.reception_.trace(pass)) {}
 
-        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
             const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
             picture_.reception_.receive(packets, {block.left, block.top}, pool_, pass_, sums);
             std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
-            return sums.invalid;
+            return {sums.invalid};
         }
 
       private:

@@ -99,8 +99,8 @@ class PathPass final : public PicturePass {
     PathPass(const PictureTracing& tracing, const transport::PathTracer& tracer, const Pass& pass)
         : tracing_(tracing), tracer_(tracer), pass_(pass) {}
 
-    std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-        return tracing_.trace(pixels_of(block), pass_, tracer_, pixels);
+    Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+        return {tracing_.trace(pixels_of(block), pass_, tracer_, pixels)};
     }
 
   private:

@@ -117,6 +117,7 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
             const Rgb found = missing(tile.receivers[i], direction, light, i, continuation,
                                       math::SampleStream(key.derived(i), round, 0));
             sums.found[i] += found;
+            ++sums.continued;
             largest = std::max(largest, std::abs(found.luminance()));
         }
         sums.largest[i] = std::max(sums.largest[i], largest);
@@ -140,6 +141,7 @@ Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, flo
 }
 
 void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings) {
+    readings.continued += sums.continued;
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Rgb per_ray = tile.response_of(i) * (kPi * weight);
         Rgb sum = sums.found[i];

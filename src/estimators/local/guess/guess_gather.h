@@ -55,6 +55,7 @@ class GuessGather {
         std::array<PointTile::Floats, kBands> guessed{};
         std::array<Rgb, kPacketWidth> found{};  ///< by path tracing beyond the guess
         std::array<double, kPacketWidth> largest{};
+        std::uint64_t continued = 0;  ///< rays
     };
     /// The shares of the guess that rays from a group of receivers bring.
     struct Shares {

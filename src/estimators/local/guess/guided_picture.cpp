@@ -79,7 +79,7 @@ class GuidedPicture final : public LocalPicture {
               selection_point_(math::SampleStream(pass.key.derived(kSelection), pass.index, 4).next_two()),
               gather_points_(gather_points(pass.key.derived(kGather), kRays * pass.index, kRays)) {}
 
-        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
             const auto [even, glossy] = picture_.divide(picture_.sub_points_.of_block(block, pass_, sums));
             choose_near(pool_, even, picture_.guide_.k_per_m2(kPoints),
@@ -89,7 +89,7 @@ class GuidedPicture final : public LocalPicture {
             if (!glossy.empty())
                 picture_.reception_.receive(glossy, {block.left, block.top}, light_paths(), pass_, sums);
             std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
-            return sums.invalid;
+            return {sums.invalid, sums.continued};
         }
 
       private:

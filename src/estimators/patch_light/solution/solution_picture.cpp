@@ -55,8 +55,8 @@ class SolutionPicture final : public Estimator {
     class SolutionPass final : public PicturePass {
       public:
         SolutionPass(const SolutionPicture& picture, const Pass& pass) : picture_(picture), pass_(pass) {}
-        std::uint64_t sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-            return picture_.sample(block, pass_, pixels);
+        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+            return {picture_.sample(block, pass_, pixels)};
         }
 
       private:
