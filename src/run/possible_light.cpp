@@ -50,7 +50,7 @@ void PossibleLight::find_lit(const estimators::Estimator& estimator) {
         if (!hit) continue;
         const Material& material = scene_.material(hit->material);
         const double reflectance = reflectance_bound(material).luminance();
-        const double lx = all_lx(hit->position, hit->normal);
+        const double lx = sampled_lx(*hit, stream);
         if (!(reflectance > 0 && lx > 0)) continue;
         const double reflected_lm =
             reflectance * particle.flux_lm.luminance() / static_cast<double>(particles);
@@ -114,9 +114,21 @@ double PossibleLight::seen_lx(const MeasuringPoint& at, const Vec3& lifted) cons
     for (const Lit& lit : lit_) {
         const double seen = seen_per_m2(at, lifted, lit);
         light += seen * lit.reflectance;
-        area += seen / lit.all_lx;
+        area += seen / lit.lx;
     }
     return area > 0 ? light / area : 0;
+}
+
+double PossibleLight::sampled_lx(const rays::Hit& place, math::SampleStream& stream) const {
+    double sum_lx = 0;
+    for (std::size_t light = 0; light < lights_.count(); ++light) {
+        const auto incident =
+            lights_.sample_incident(light, {place.position, place.normal}, stream.next_two());
+        if (!incident) continue;
+        const double cosine = std::max(0.0, dot(incident->direction, place.normal));
+        sum_lx += cosine * incident->normal_illuminance_lx.luminance();
+    }
+    return sum_lx;
 }
 
 double PossibleLight::all_lx(const Vec3& position, const Vec3& normal) const {

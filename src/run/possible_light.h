@@ -25,15 +25,16 @@ class PossibleLight {
     /// A place that a particle of a lamp has met.
     struct Lit {
         Vec3 lifted, normal;
-        double reflectance = 0, all_lx = 0;
+        double reflectance = 0, lx = 0;
         double reflected_lm = 0;  ///< of the particle
 
         /// The contribution of a sample that meets the place, by a ray that is cosine-distributed.
-        double sample_lx() const { return reflectance * all_lx; }
+        double sample_lx() const { return reflectance * lx; }
     };
     void find_lit(const estimators::Estimator& estimator);
     double missed_lx(const MeasuringPoint& at, double largest_lx, std::uint64_t samples) const;
-    /// The unshadowed light of all lamps.
+    /// The unshadowed light of all lamps: a sample, and an estimate that is 0 only where there is none.
+    double sampled_lx(const rays::Hit& place, math::SampleStream& stream) const;
     double all_lx(const Vec3& position, const Vec3& normal) const;
     /// For places that a point sees: the cosines over the squared distance [1/m2]; else 0.
     double seen_per_m2(const MeasuringPoint& at, const Vec3& lifted, const Lit& lit) const;
