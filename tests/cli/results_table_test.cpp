@@ -86,6 +86,14 @@ TEST(ResultsTable, NamesTheQuantities) {
     EXPECT_TRUE(has(table_of(made), "\neye           500.0 ± 2.0 lx   at (1, 2, 3) facing (0, 0, 1)\n"));
     made.sensors.erase(made.sensors.begin(), made.sensors.begin() + 2);
     EXPECT_TRUE(table_of(made).starts_with("Illuminance, with 95 % intervals\n"));
+    const Sensor rating{"rating", Ugr{{{{1, 2, 3}, {0, 1, 0}}}}};
+    made.sensors.push_back({rating, {io::reading(19)}, {}, {}, 0.01});
+    EXPECT_TRUE(table_of(made).starts_with("Illuminance and glare ratings, with 95 % intervals\n"));
+    std::swap(made.sensors.front(), made.sensors.back());
+    EXPECT_TRUE(table_of(made).starts_with("Illuminance and glare ratings, with 95 % intervals\n"));
+    made.sensors.erase(made.sensors.begin() + 1);
+    EXPECT_TRUE(table_of(made).starts_with("Glare ratings, with 95 % intervals\n"));
+    made.sensors = {{eye, {io::reading(500)}, {}, {}, 0.01}};
     made.maintenance = {0.8, 0.8};
     EXPECT_TRUE(
         table_of(made).starts_with("Maintained illuminance (maintenance factor 0.8), with 95 % intervals\n"));

@@ -138,10 +138,16 @@ std::string quantities_of(const std::vector<SensorResult>& sensors) {
             return !result.sensor.derived() && result.sensor.quantity().unit == unit;
         });
     };
-    if (std::ranges::all_of(sensors, [](const auto& result) { return result.sensor.rates_glare(); }))
-        return "glare ratings";
-    if (!has(sensors::kLuminance.unit)) return "illuminance";
-    return has(sensors::kIlluminance.unit) ? "illuminance and luminance" : "luminance";
+    std::vector<std::string_view> names;
+    if (has(sensors::kIlluminance.unit)) names.push_back("illuminance");
+    if (has(sensors::kLuminance.unit)) names.push_back("luminance");
+    if (std::ranges::any_of(sensors, [](const auto& result) { return result.sensor.rates_glare(); }))
+        names.push_back("glare ratings");
+    if (names.empty()) return "derived values";
+    std::string text(names.front());
+    for (std::size_t i = 1; i < names.size(); ++i)
+        text += fmt::format("{}{}", i + 1 < names.size() ? ", " : " and ", names[i]);
+    return text;
 }
 
 std::string title_of(const RunResult& result) {
