@@ -66,8 +66,8 @@ constexpr std::uint64_t kPilotPasses = 4, kPilotReplicates = 2;
 /// The processor time of a pass by the guess over that of one without, where all is diffuse, and with gloss,
 /// whose light comes by light paths in both (docs/performance.md).
 constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.5;
-/// What that grows by for each gathering ray of a pixel that path tracing continues: next to none in rooms,
-/// nearly all of them near a ground of kilometres.
+/// This is added for each gathering ray of a pixel that path tracing continues. Few are in rooms, and nearly
+/// all of them beside a ground of kilometres.
 constexpr double kContinuedCost = 2.5;
 
 /// The readings of the parts of a pilot.

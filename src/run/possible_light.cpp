@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "statistics/interval.h"
+#include "transport/direct/lamp_hull.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::run {
@@ -124,9 +125,8 @@ double PossibleLight::sampled_lx(const rays::Hit& place, math::SampleStream& str
     for (std::size_t light = 0; light < lights_.count(); ++light) {
         const auto incident =
             lights_.sample_incident(light, {place.position, place.normal}, stream.next_two());
-        if (!incident) continue;
-        const double cosine = std::max(0.0, dot(incident->direction, place.normal));
-        sum_lx += cosine * incident->normal_illuminance_lx.luminance();
+        const auto sample = incident ? transport::lamp_sample(*incident, place.normal) : std::nullopt;
+        if (sample) sum_lx += sample->illuminance_lx.luminance();
     }
     return sum_lx;
 }

@@ -1,4 +1,3 @@
-
 #include "cli/commands/results_table.h"
 
 #include <fmt/format.h>
