@@ -66,7 +66,7 @@ statistics::Estimate mean_of_readings(const estimators::Estimator& method, std::
 
 /// So many samples that most readings reach the error that is aimed at, by a pilot with a key of its own.
 std::vector<statistics::Estimate> measure_exactly(const estimators::Estimator& method, std::size_t readings,
-                                                  math::RandomKey key) {
+                                                  math::RandomKey key, double target_error) {
     const std::uint64_t granularity = method.batch_granularity();
     const std::uint64_t pilot = std::max<std::uint64_t>(granularity, 64 / granularity * granularity);
     double squared = 0;
@@ -75,7 +75,7 @@ std::vector<statistics::Estimate> measure_exactly(const estimators::Estimator& m
         squared += error * error / static_cast<double>(readings);
     }
     const double granules =
-        squared / (kTargetError * kTargetError) * static_cast<double>(pilot / granularity);
+        squared / (target_error * target_error) * static_cast<double>(pilot / granularity);
     const auto most = static_cast<double>((1u << 13) / granularity);
     return measure(
         method, readings, key.derived(1),
@@ -109,9 +109,10 @@ TEST_P(Guided, IsLocalEstimation) {
                                       .max_reflections = transport::kUnlimited,
                                       .preparation_key = key.derived(2),
                                       .measurands = measurands};
-    const auto guided = measure_exactly(*estimators::make_guided(problem), measurands.size(), key.derived(0));
-    const auto balanced =
-        measure_exactly(*estimators::make_balanced(problem), measurands.size(), key.derived(1));
+    const auto guided = measure_exactly(*estimators::make_guided(problem), measurands.size(), key.derived(0),
+                                        of.coarser * kTargetError);
+    const auto balanced = measure_exactly(*estimators::make_balanced(problem), measurands.size(),
+                                          key.derived(1), of.coarser * kTargetError);
     const double threshold = statistics::sidak_threshold_z(kFamilyError, comparisons());
     for (std::size_t j = 0; j < measurands.size(); ++j) {
         const double t = statistics::z_score(guided[j], balanced[j]);

@@ -1,5 +1,7 @@
 #include "agreement/scenes.h"
 
+#include <cstdlib>
+
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
@@ -453,7 +455,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"cylinders", Cylindrical{{{0.005, 0.005, 1.2}, {3.995, 1.5, 0.005}}}},
         {"semicylinders", Semicylindrical{{{0.005, 0.005, 1.2}}, {1, 0, 0}}},
         {"spheres", Spherical{{{2, 2.995, 2.795}}}}};
-    static const std::vector<AgreementScene> scenes{
+    static std::vector<AgreementScene> scenes{
         {"ClosedBox", nothing, {}, closed_box, inside, {}},
         {"ColouredBox", nothing, {}, coloured_box, inside, {}},
         {"ParallelPlanes", nothing, {}, parallel_planes, between_planes, {}},
@@ -492,14 +494,14 @@ std::span<const AgreementScene> agreement_scenes() {
         {"SphereOverPlastic", finite_variance, {}, sphere_over_plastic, {}, at_the_table},
         {"LuminanceInMirrors", nothing, {}, mirror_and_panel, {}, into_mirrors},
         {"LuminanceAndPointLightInMirror", light_from_mirrors, {}, mirror_and_point_light, {}, around},
-        {"LuminanceThroughGlass", nothing, {}, room_with_glass, inside, through_glass},
+        {"LuminanceThroughGlass", nothing, {}, room_with_glass, inside, through_glass, {}, 1, 2},
         {"LuminanceThroughAPane",
          light_from_mirrors,
          {},
          room_with_glass_and_point_light,
          {},
          through_the_pane},
-        {"LampBehindPanes", nothing, {}, lamp_behind_panes, inside, around},
+        {"LampBehindPanes", nothing, {}, lamp_behind_panes, inside, around, {}, 1, 2.5},
         {"LampBehindPanesOneReflection", nothing, 1, lamp_behind_panes, inside, around},
         {"LuminanceThroughASlit", nothing, {}, rooms_with_slit, {}, both_sides_of_the_slit},
         {"LuminanceUnderLuminaires", nothing, {}, photometry_luminaires, {}, around},
@@ -512,13 +514,13 @@ std::span<const AgreementScene> agreement_scenes() {
         {"HarmonicBodiesOneReflection", nothing, 1, harmonic_bodies, inside, at_bodies},
         {"HarmonicLamp", nothing, {}, harmonic_lamp, inside, around},
         {"RoomWithWindow", nothing, {}, room_with_window, inside, about_the_window},
-        {"RoomUnderSky", nothing, {}, room_under_sky, inside, about_the_window, {}, 4},
-        {"RoomUnderSkyTwoReflections", nothing, 2, room_under_sky, inside, about_the_window, {}, 4},
+        {"RoomUnderSky", nothing, {}, room_under_sky, inside, about_the_window, {}, 4, 2.5},
+        {"RoomUnderSkyTwoReflections", nothing, 2, room_under_sky, inside, about_the_window, {}, 4, 2.5},
         {"RoomWithGlazing", nothing, {}, room_with_glazing, inside, about_the_window},
         {"Outdoors", nothing, {}, outdoors, inside, outside},
         {"BodiesInColour", nothing, {}, coloured_box, {}, {}, bodies},
         {"BodiesNearCorners", finite_variance, {}, bright_box, {}, {}, near_corners},
-        {"BodiesBesidePhong", nothing, {}, broad_phong_box, inside, {}, bodies, 4},
+        {"BodiesBesidePhong", nothing, {}, broad_phong_box, inside, {}, bodies, 4, 2.5},
         {"BodiesAndMirrors", nothing, {}, mirror_and_panel, {}, {}, bodies},
         {"BodiesUnderLuminaires", nothing, {}, photometry_luminaires, {}, {}, bodies},
         {"BodiesUnderOpenings", nothing, {}, luminous_openings, {}, {}, bodies},
@@ -527,6 +529,9 @@ std::span<const AgreementScene> agreement_scenes() {
         {"SmoothMeshesOneReflection", nothing, 1, smooth_meshes, inside, at_bodies},
         {"SmoothSpecularMeshes", nothing, {}, smooth_specular_meshes, inside, at_bodies},
     };
+    if (std::getenv("STILB_FINE") != nullptr) {
+        for (AgreementScene& scene : scenes) scene.coarser = 1;
+    }
     return scenes;
 }
 

@@ -164,7 +164,7 @@ void expect_readable(std::uint64_t seed) {
 }
 
 TEST(ReadableSolutions, OfRandomScenes) {
-    for (std::uint64_t seed = 1; seed <= 24; ++seed) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
         EXPECT_NO_THROW(expect_readable(seed));
     }

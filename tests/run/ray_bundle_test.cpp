@@ -98,8 +98,8 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
          {estimators::FirstShotVariant::classical, estimators::FirstShotVariant::diffuse,
           estimators::FirstShotVariant::incoming, estimators::FirstShotVariant::on_the_fly}) {
         // Shadow rays at every crossing take their time.
-        RunOptions options =
-            bundle_options(0.35, variant == estimators::FirstShotVariant::on_the_fly ? 64 : 512);
+        const bool on_the_fly = variant == estimators::FirstShotVariant::on_the_fly;
+        RunOptions options = bundle_options(on_the_fly ? 0.7 : 0.35, 128);
         options.patches.first_shot.variant = variant;
         const double tolerance = 0.05;
         const RunResult result = measure(scene, {&sensor, 1}, options);

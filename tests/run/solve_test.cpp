@@ -232,9 +232,9 @@ TEST(Solve, DimmedLampsAreThoseOfADimmedScene) {
     std::array<std::vector<double>, 2> means;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         means[0].push_back(
-            render_solution(scene, camera(), solve(scene, options_of(128, seed)).solution, factors)
+            render_solution(scene, camera(), solve(scene, options_of(64, seed)).solution, factors)
                 .mean_luminance_cd_m2);
-        means[1].push_back(picture_of_solution(dimmed, 128, seed + 100).mean_luminance_cd_m2);
+        means[1].push_back(picture_of_solution(dimmed, 64, seed + 100).mean_luminance_cd_m2);
     }
     expect_equal(statistics::estimate_from_replicates(means[0]),
                  statistics::estimate_from_replicates(means[1]));

@@ -29,7 +29,7 @@ TEST(WeakRoom, HasItsLightWhateverTheRatioOfTheLamps) {
         for (const char* method : {"path", "light-paths", "guided", "auto"}) {
             RunOptions options;
             options.method = method;
-            options.paths = 16384;
+            options.paths = 4096;
             const RunResult result = measure(scene, std::vector{point_sensor(points)}, options);
             for (std::size_t i = 0; i < places.size(); ++i) {
                 const auto [x, y] = places[i];
@@ -39,7 +39,7 @@ TEST(WeakRoom, HasItsLightWhateverTheRatioOfTheLamps) {
                 const statistics::Estimate& found = result.sensors[0].readings[i].estimate;
                 EXPECT_NEAR(found.value, exact_lx, 4.5 * found.standard_error + 2e-4 * exact_lx)
                     << method << ", ratio " << ratio << ", " << i;
-                EXPECT_LT(found.standard_error, 0.04 * exact_lx) << method << ", ratio " << ratio;
+                EXPECT_LT(found.standard_error, 0.08 * exact_lx) << method << ", ratio " << ratio;
                 EXPECT_GT(found.standard_error, 0) << method << ", ratio " << ratio;
             }
         }

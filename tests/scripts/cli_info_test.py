@@ -50,7 +50,7 @@ count = [{count}, {count}]
 
         for method in ("local", "path"):
             one, _ = peak_bytes(1, method)
-            for count in (250, 800):
+            for count in (250, 500):
                 all_of_them, stated = peak_bytes(count, method)
                 self.assertLess(abs(all_of_them - one - stated), 0.25 * stated, (method, count, all_of_them, one, stated))
 

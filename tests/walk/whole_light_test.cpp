@@ -109,7 +109,7 @@ TEST(Page, ShowsTheLightOfTheRoomWithinItsError) {
         error_lx.push_back(error);
     }
     RunOptions truth;
-    truth.paths = 32'768;
+    truth.paths = 8'192;
     const std::vector<Sensor> sensors{point_sensor(points)};
     const RunResult measured = run::measure(scene, sensors, truth);
     std::size_t covered = 0, close = 0;
