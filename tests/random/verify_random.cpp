@@ -12,6 +12,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
@@ -157,11 +158,24 @@ Counts check_all(const Request& request) {
     return sums;
 }
 
+/// Throws std::invalid_argument where the text is no whole number: a misspelled option must not pass as a run
+/// of no scene.
+std::uint64_t number_in(std::string_view text) {
+    std::uint64_t number = 0;
+    const auto [end, error] = std::from_chars(text.begin(), text.end(), number);
+    if (error != std::errc{} || end != text.end()) {
+        throw std::invalid_argument(fmt::format(
+            "'{}' is neither a number nor an option of verify_random: docs/verification.md lists them",
+            text));
+    }
+    return number;
+}
+
 Request parse(int argc, char** argv) {
     Request request;
     for (int i = 1; i < argc; ++i) {
         const std::string_view argument = argv[i];
-        const auto next = [&] { return std::strtoull(++i < argc ? argv[i] : "0", nullptr, 10); };
+        const auto next = [&] { return number_in(++i < argc ? argv[i] : ""); };
         if (argument == "--seed") {
             request.options.seed = next();
         } else if (argument == "--scene") {
@@ -172,7 +186,7 @@ Request parse(int argc, char** argv) {
         } else if (argument == "--forms") {
             request.options.forms = next();
         } else if (argument == "--work") {
-            request.options.work = std::max(1ull, next());
+            request.options.work = std::max<std::uint64_t>(1, next());
         } else if (argument == "--jobs") {
             request.jobs = std::max<std::size_t>(1, next());
         } else if (argument == "--long") {
@@ -184,7 +198,7 @@ Request parse(int argc, char** argv) {
         } else if (argument == "--print") {
             request.prints_scene = true;
         } else {
-            request.scenes = std::strtoull(argv[i], nullptr, 10);
+            request.scenes = number_in(argument);
         }
     }
     request.options.folder =
@@ -215,4 +229,9 @@ int run(const Request& request) {
 }  // namespace
 }  // namespace stilb::random
 
-int main(int argc, char** argv) { return stilb::random::run(stilb::random::parse(argc, argv)); }
+int main(int argc, char** argv) try {
+    return stilb::random::run(stilb::random::parse(argc, argv));
+} catch (const std::invalid_argument& error) {
+    fmt::print(stderr, "{}\n", error.what());
+    return 2;
+}
