@@ -430,8 +430,7 @@ class PlyReader {
             const PlyProperty& property = element.properties[i];
             if (targets[i] == nullptr) return skip(property);
             const double value = body_.read(property.type);
-            const bool may_be_missing = property.name.starts_with('n');
-            if (!may_be_missing && !is_coordinate(value)) {
+            if (!is_coordinate(value) && !property.name.starts_with('n')) {
                 location_.fail(fmt::format("{} is {}; it must be a finite number, at most 1e30 in size",
                                            property.name, value));
             }
