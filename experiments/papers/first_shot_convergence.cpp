@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <stdexcept>
 
 #include "base/parallel.h"
 #include "estimators/patch_light/patch_readings.h"
@@ -84,7 +85,13 @@ std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing
                                        const std::vector<ConvergenceMethod>& methods, int steps,
                                        double most_time_s,
                                        const std::function<void(const ConvergenceState&)>& look) {
-    const estimators::PatchTransport best(tracing.scene, tracing.caster, {});
+    estimators::PatchOptions of_reference;
+    of_reference.patch_m = methods.front().options.patch_m;
+    for (const ConvergenceMethod& method : methods) {
+        if (method.options.patch_m != of_reference.patch_m)
+            throw std::invalid_argument("methods with patches of different sizes have no common reference");
+    }
+    const estimators::PatchTransport best(tracing.scene, tracing.caster, of_reference);
     const Vec3& eye = tracing.view.position();
     const std::vector<double> pixels = pixels_of_sides(tracing, best);
     const std::vector<estimators::FloatRgb> reference =

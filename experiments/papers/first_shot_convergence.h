@@ -40,8 +40,8 @@ struct ConvergenceState {
 
 /// One walk for each method from darkness, no step left out, and the same number of steps for all but those
 /// that take longer than `most_time_s` and are not shown. The reference is the mean of several walks of as
-/// many steps by incoming first shot over the same patches. `look` sees what has a point on the curve; its
-/// time is not counted.
+/// many steps by incoming first shot over the same patches; throws std::invalid_argument where the methods'
+/// patches have different sizes. `look` sees what has a point on the curve; its time is not counted.
 std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing,
                                        const std::vector<ConvergenceMethod>& methods, int steps,
                                        double most_time_s,

@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <map>
+#include <stdexcept>
 #include <string>
 
 #include "support/scene_builder.h"
@@ -37,6 +38,13 @@ TEST(FirstShotConvergence, ShownMethodsAreSeenUntilTheirLastStep) {
     EXPECT_EQ(curves[0].points.back().steps, steps);
     EXPECT_EQ(last_seen["other"], 1);
     EXPECT_EQ(curves[1].points.size(), 1u);
+    EXPECT_LT(curves[0].points.back().error, 0.2) << "of the light of the same patches";
+    EXPECT_GT(curves[0].points.back().error, 0);
+    estimators::PatchOptions finer = options;
+    finer.patch_m = 0.5;
+    EXPECT_THROW(converge(tracing, {{"shown", options, true}, {"finer", finer, true}}, steps, 0,
+                          [](const ConvergenceState&) {}),
+                 std::invalid_argument);
 }
 
 }  // namespace
