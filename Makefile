@@ -58,7 +58,7 @@ install: build ## the program, the library with its CMake package, manual pages 
 	@cmake --build --preset release --target stilb_library
 	@cmake --install build/release --prefix $(PREFIX)
 
-verify-long: build ## all exact solutions at 0.2 %, CIE 171, closed meshes with 1e8 rays each, patches as they shrink, harmonics, coverage of readings, pixels and ratings, the agreement of methods in dear scenes too, time limits
+verify-long: build ## all exact solutions at 0.2 %, CIE 171, closed meshes with 1e8 rays each, patches as they shrink, harmonics, coverage of readings, pixels and ratings, the tests that are coarser in `make test`, time limits
 	$(RELEASE)/stilb verify --error 0.2%
 	$(RELEASE)/stilb verify --cie171 --error 0.5%
 	@cmake --build --preset release --target verify_watertight verify_patches verify_harmonics verify_coverage verify_pooled verify_ratings verify_glare
@@ -69,8 +69,8 @@ verify-long: build ## all exact solutions at 0.2 %, CIE 171, closed meshes with 
 	$(RELEASE)/verify_pooled
 	$(RELEASE)/verify_ratings
 	$(RELEASE)/verify_glare
-	@cmake --build --preset release --target test_agreement
-	STILB_FINE=1 $(RELEASE)/test_agreement
+	@cmake --build --preset release
+	STILB_FINE=1 ctest --preset release -j $(JOBS) -R "^(agreement|run|walk|io):"
 	tests/long/verify_limits.py
 
 verify-random: setup ## SCENES random scenes (2000), from SEED (1), each measured in many ways that must agree: docs/verification.md

@@ -15,6 +15,7 @@
 #include "estimators/estimator_list.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
+#include "support/coarser.h"
 #include "support/scene_builder.h"
 
 namespace stilb {
@@ -95,7 +96,7 @@ std::uint64_t paths_needed(const Scene& scene, const AgreementScene& of, const s
                            std::uint64_t seed) {
     constexpr std::uint64_t pilot = kReplicates * 1024, least = kReplicates * 512, most = kReplicates << 16;
     const Measured measured = measure(scene, of, method, seed, pilot);
-    const double ratio = largest_relative_error(measured.estimates) / (of.coarser * kTargetError);
+    const double ratio = largest_relative_error(measured.estimates) / (coarser(of.coarser) * kTargetError);
     return static_cast<std::uint64_t>(std::clamp<double>(ratio * ratio * pilot, least, most));
 }
 
@@ -183,7 +184,7 @@ TEST_P(Agreement, OfAllMethods) {
         worst = std::max(worst, z);
     };
     for (std::size_t i = 0; i < all.size(); ++i) {
-        EXPECT_LT(largest_relative_error(all[i].both.estimates), of.coarser * kLargestError)
+        EXPECT_LT(largest_relative_error(all[i].both.estimates), coarser(of.coarser) * kLargestError)
             << all[i].both.what;
         compare(all[i].first, all[i].second);
         for (std::size_t j = 0; j < i; ++j) compare(all[i].both, all[j].both);
@@ -191,7 +192,7 @@ TEST_P(Agreement, OfAllMethods) {
     // The comparison itself: a wrong method does not pass.
     for (std::size_t i = 0; i < all.size() && all.size() > 1; ++i) {
         if (is_dark(all[i].both)) continue;
-        EXPECT_TRUE(notices_error_of(i, all, of.coarser * kNoticed)) << all[i].both.what;
+        EXPECT_TRUE(notices_error_of(i, all, coarser(of.coarser) * kNoticed)) << all[i].both.what;
     }
     RecordProperty("worst_z", std::to_string(worst));
 }
@@ -212,11 +213,15 @@ TEST(HarmonicBodies, AreAsFineMeshes) {
         AgreementScene sights = points;
         sights.points.clear();
         sights.sights = twin.many_sights;
+        const double factor = coarser(2);
+        const auto paths = [&](std::uint64_t usual) {
+            return static_cast<std::uint64_t>(static_cast<double>(usual) / (factor * factor));
+        };
         const auto measure_means = [&](const Scene& scene, std::uint64_t seed) {
-            Measured measured = measure(scene, points, "path", seed, kReplicates << 9);
+            Measured measured = measure(scene, points, "path", seed, paths(kReplicates << 11));
             measured.estimates.push_back(
-                measure(scene, sights, "path", seed + 1, kReplicates << 5).estimates.back());
-            EXPECT_LT(largest_relative_error(measured.estimates), 4 * kLargestError) << twin.of;
+                measure(scene, sights, "path", seed + 1, paths(kReplicates << 7)).estimates.back());
+            EXPECT_LT(largest_relative_error(measured.estimates), 2 * factor * kLargestError) << twin.of;
             return measured;
         };
         const double z = worst_z(measure_means(points.make(), 7000), measure_means(twin.make(), 7100));

@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "statistics/hypothesis.h"
+#include "support/coarser.h"
 #include "support/scene_builder.h"
 #include "transport/receiver.h"
 
@@ -88,14 +89,16 @@ TEST(GlossyPicture, IsThatOfPathTracing) {
                                       .max_reflections = transport::kUnlimited,
                                       .preparation_key = key.derived(0),
                                       .camera = camera()};
-    constexpr auto fewer = static_cast<std::uint64_t>(kCoarser * kCoarser);
-    const auto path = means_of(*estimators::make_path(problem), key.derived(1), 48 / fewer);
-    const auto by_light_paths = means_of(*estimators::make_balanced(problem), key.derived(2), 48 / fewer);
-    const auto by_guess = means_of(*estimators::make_guided(problem), key.derived(3), 48 / fewer);
+    const double factor = coarser(1.63), fewer = factor * factor * kCoarser * kCoarser;
+    const auto passes = static_cast<std::uint64_t>(128 / fewer);
+    const auto path = means_of(*estimators::make_path(problem), key.derived(1), passes);
+    const auto by_light_paths = means_of(*estimators::make_balanced(problem), key.derived(2), passes);
+    const auto by_guess = means_of(*estimators::make_guided(problem), key.derived(3), passes);
     const double threshold = statistics::sidak_threshold_z(0.01, 2 * (path.size() + 1));
     for (const auto& other : {by_light_paths, by_guess}) {
-        for (std::size_t c = 0; c < path.size(); ++c) expect_equal(path[c], other[c], threshold, 0.05);
-        expect_equal(sum_of_cells(path), sum_of_cells(other), threshold, 0.0035);
+        for (std::size_t c = 0; c < path.size(); ++c)
+            expect_equal(path[c], other[c], threshold, 0.03 * factor);
+        expect_equal(sum_of_cells(path), sum_of_cells(other), threshold, 0.002 * factor);
     }
 }
 

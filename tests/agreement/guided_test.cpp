@@ -12,6 +12,7 @@
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
 #include "statistics/hypothesis.h"
+#include "support/coarser.h"
 #include "support/scene_builder.h"
 #include "transport/receiver.h"
 
@@ -110,9 +111,9 @@ TEST_P(Guided, IsLocalEstimation) {
                                       .preparation_key = key.derived(2),
                                       .measurands = measurands};
     const auto guided = measure_exactly(*estimators::make_guided(problem), measurands.size(), key.derived(0),
-                                        of.coarser * kTargetError);
+                                        coarser(of.coarser) * kTargetError);
     const auto balanced = measure_exactly(*estimators::make_balanced(problem), measurands.size(),
-                                          key.derived(1), of.coarser * kTargetError);
+                                          key.derived(1), coarser(of.coarser) * kTargetError);
     const double threshold = statistics::sidak_threshold_z(kFamilyError, comparisons());
     for (std::size_t j = 0; j < measurands.size(); ++j) {
         const double t = statistics::z_score(guided[j], balanced[j]);

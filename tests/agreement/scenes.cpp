@@ -1,7 +1,5 @@
 #include "agreement/scenes.h"
 
-#include <cstdlib>
-
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 
@@ -455,7 +453,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"cylinders", Cylindrical{{{0.005, 0.005, 1.2}, {3.995, 1.5, 0.005}}}},
         {"semicylinders", Semicylindrical{{{0.005, 0.005, 1.2}}, {1, 0, 0}}},
         {"spheres", Spherical{{{2, 2.995, 2.795}}}}};
-    static std::vector<AgreementScene> scenes{
+    static const std::vector<AgreementScene> scenes{
         {"ClosedBox", nothing, {}, closed_box, inside, {}},
         {"ColouredBox", nothing, {}, coloured_box, inside, {}},
         {"ParallelPlanes", nothing, {}, parallel_planes, between_planes, {}},
@@ -529,9 +527,6 @@ std::span<const AgreementScene> agreement_scenes() {
         {"SmoothMeshesOneReflection", nothing, 1, smooth_meshes, inside, at_bodies},
         {"SmoothSpecularMeshes", nothing, {}, smooth_specular_meshes, inside, at_bodies},
     };
-    if (std::getenv("STILB_FINE") != nullptr) {
-        for (AgreementScene& scene : scenes) scene.coarser = 1;
-    }
     return scenes;
 }
 

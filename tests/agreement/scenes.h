@@ -29,8 +29,7 @@ struct AgreementScene {
     /// A factor on the number of paths: where light is so rare that a pilot run underestimates its noise, and
     /// where two methods at two points have few chances to notice an error.
     std::uint64_t path_factor = 1;
-    /// A factor on all errors that are aimed at and noticed, where the methods need minutes for the usual
-    /// ones. It is left out where STILB_FINE is set, as in `make verify-long`.
+    /// A factor on all errors that are aimed at and noticed (support/coarser.h).
     double coarser = 1;
 
     /// Points, sights and bodies.

@@ -16,6 +16,7 @@
 #include "scene/light_groups.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"
+#include "support/coarser.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {
@@ -229,12 +230,13 @@ TEST(Solve, DimmedLampsAreThoseOfADimmedScene) {
                                            {scene.lights[1].name, {{2, 0.5, 0.1}}}};
     const LightGroups groups = scene::light_groups(scene);
     const Scene dimmed = scene::relit(scene, groups, scene::factors_of_groups(factors, groups.names));
+    const auto steps = static_cast<std::uint64_t>(128 / coarser(2));
     std::array<std::vector<double>, 2> means;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         means[0].push_back(
-            render_solution(scene, camera(), solve(scene, options_of(64, seed)).solution, factors)
+            render_solution(scene, camera(), solve(scene, options_of(steps, seed)).solution, factors)
                 .mean_luminance_cd_m2);
-        means[1].push_back(picture_of_solution(dimmed, 64, seed + 100).mean_luminance_cd_m2);
+        means[1].push_back(picture_of_solution(dimmed, steps, seed + 100).mean_luminance_cd_m2);
     }
     expect_equal(statistics::estimate_from_replicates(means[0]),
                  statistics::estimate_from_replicates(means[1]));

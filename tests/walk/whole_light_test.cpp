@@ -6,6 +6,7 @@
 #include "math/random.h"
 #include "run/run.h"
 #include "run/solve.h"
+#include "support/coarser.h"
 #include "walk/container_reader.h"
 #include "walk/walk_rooms.h"
 
@@ -109,7 +110,7 @@ TEST(Page, ShowsTheLightOfTheRoomWithinItsError) {
         error_lx.push_back(error);
     }
     RunOptions truth;
-    truth.paths = 8'192;
+    truth.paths = static_cast<std::uint64_t>(32'768 / std::pow(coarser(2), 2));
     const std::vector<Sensor> sensors{point_sensor(points)};
     const RunResult measured = run::measure(scene, sensors, truth);
     std::size_t covered = 0, close = 0;
