@@ -12,6 +12,7 @@
 #include <string>
 
 #include "stilb/stilb.h"
+#include "support/test_folder.h"
 
 namespace {
 
@@ -315,18 +316,16 @@ TEST(Library, PicturesHavePixelsAndErrors) {
     EXPECT_EQ(picture.rgb_cd_m2.size(), 12u * 8u);
     EXPECT_EQ(picture.standard_error_cd_m2.size(), 12u * 8u);
     EXPECT_GT(picture.luminance_cd_m2[50], 0);
-    const auto file = std::filesystem::temp_directory_path() / "stilb_library_test.png";
+    const stilb::TestFolder folder;
+    const auto file = folder / "picture.png";
     picture.save(file);
     EXPECT_GT(std::filesystem::file_size(file), 100u);
-    std::filesystem::remove(file);
     EXPECT_THROW(picture.save("/nowhere/picture.png"), stilb::InputError);
 }
 
 TEST(Library, SolutionsShowWhatRenderingDoes) {
-    const auto folder = std::filesystem::temp_directory_path() / "stilb_library_test";
-    std::filesystem::create_directories(folder);
-    std::ofstream(folder / "room.toml") << kRoom;
-    const stilb::Scene scene = stilb::Scene::load(folder / "room.toml");
+    const stilb::TestFolder folder;
+    const stilb::Scene scene = stilb::Scene::load(folder.write("room.toml", std::string(kRoom)));
     stilb::Options options;
     options.samples = 512;
     options.patch_m = 0.5;
@@ -356,7 +355,6 @@ TEST(Library, SolutionsShowWhatRenderingDoes) {
                   loaded.render("view", {}, {{"bulb", {-1, 1, 1}}});
               }).find("lights.bulb"),
               std::string::npos);
-    std::filesystem::remove_all(folder);
     EXPECT_NE(message_of([&] {
                   stilb::solve(room().build(), options).save("room.solution");
               }).find("built in code"),

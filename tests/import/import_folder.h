@@ -12,27 +12,18 @@
 #include "io/scene/scene_file.h"
 #include "io/text/table.h"
 #include "run/run.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 
 /// A folder that ends with the test.
 class ImportFolderTest : public testing::Test {
   protected:
-    ImportFolderTest()
-        : folder(
-              std::filesystem::temp_directory_path() /
-              fmt::format("stilb-import-{}", testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
-    }
-    ~ImportFolderTest() override { std::filesystem::remove_all(folder); }
-
     std::filesystem::path write(const std::string& name, const std::string& content) const {
-        write_file(folder / name, content);
-        return folder / name;
+        return folder.write(name, content);
     }
 
-    std::filesystem::path folder;
+    const TestFolder folder;
 };
 
 inline std::vector<run::Reading> readings_of(const SceneFile& file, std::uint64_t seed = 1) {

@@ -11,22 +11,14 @@
 #include "io/text/table.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
 
 class InstancesTest : public testing::Test {
   protected:
-    InstancesTest()
-        : folder(std::filesystem::temp_directory_path() /
-                 fmt::format("stilb-instances-{}",
-                             testing::UnitTest::GetInstance()->current_test_info()->name())) {
-        std::filesystem::remove_all(folder);
-        std::filesystem::create_directories(folder);
-    }
-    ~InstancesTest() override { std::filesystem::remove_all(folder); }
-
-    std::filesystem::path folder;
+    const TestFolder folder;
 };
 
 /// 81,920 triangles.

@@ -4,6 +4,7 @@
 
 #include "io/import/radiance/calculation.h"
 #include "radiance_text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -19,17 +20,12 @@ const std::string kSurfaces = with_material(
 
 class RadianceFiles : public testing::Test {
   protected:
-    RadianceFiles() : folder_(std::filesystem::path(testing::TempDir()) / "radiance_files") {
-        std::filesystem::create_directories(folder_ / "parts");
-    }
-    ~RadianceFiles() override { std::filesystem::remove_all(folder_); }
-    void write(const std::string& name, const std::string& text) const {
-        std::ofstream(folder_ / name) << text;
-    }
+    RadianceFiles() { std::filesystem::create_directories(folder_ / "parts"); }
+    void write(const std::string& name, const std::string& text) const { folder_.write(name, text); }
     radiance::Description describe(const std::string& text) const {
         return radiance::read_description(text, "r.rad", folder_);
     }
-    std::filesystem::path folder_;
+    const TestFolder folder_;
 };
 
 TEST(RadianceDescription, CommentsQuotesAndArgumentsOverLines) {

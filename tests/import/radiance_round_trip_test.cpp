@@ -1,6 +1,7 @@
 // Scenes of Stilb that are exported to Radiance and read again.
 #include "io/export/export.h"
 #include "radiance_text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -60,10 +61,9 @@ opening = "point"
 
 TEST(RadianceRoundTrip, KeepsAreasMaterialsAndFluxes) {
     const SceneFile original = read_scene(kRoom, "room.toml", kRadianceData / "parts");
-    const auto folder = std::filesystem::path(testing::TempDir()) / "radiance_round_trip";
+    const TestFolder folder;
     export_scene(original, ExportFormat::radiance, folder);
     const SceneFile again = read_radiance_scene(folder / "scene.rad");
-    std::filesystem::remove_all(folder);
 
     EXPECT_EQ(again.warnings, std::vector<std::string>{});
     const auto flux_of = [](const SceneFile& file, std::string_view part) {

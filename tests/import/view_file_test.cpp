@@ -9,6 +9,7 @@
 
 #include "io/image/picture_file.h"
 #include "stilb/error.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -103,16 +104,14 @@ TEST(ViewFile, RefusesWhatIsNoView) {
 }
 
 TEST(ViewFile, APictureGivesItsViewAndSize) {
-    const auto folder = std::filesystem::temp_directory_path();
-    const auto path = folder / "stilb-view-test.hdr";
-    std::ofstream(path, std::ios::binary) << std::string(
-                                                 "#?RADIANCE\nVIEW= -vta -vp 1 2 3 -vd 0 -1 0 -vu 0 0 1 -vh "
-                                                 "90 -vv 45\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n") +
-                                                 std::string(8, '\x40');
+    const TestFolder folder;
+    const auto path = folder.write("stilb-view-test.hdr",
+                                   "#?RADIANCE\nVIEW= -vta -vp 1 2 3 -vd 0 -1 0 -vu 0 0 1 -vh "
+                                   "90 -vv 45\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 2\n" +
+                                       std::string(8, '\x40'));
     SceneFile file;
     file.sensors.push_back({"stilb-view-test", Camera{}});
     const std::string name = add_view(path, {}, file);
-    std::filesystem::remove(path);
     EXPECT_EQ(name, "stilb-view-test_2");
     ASSERT_EQ(file.sensors.size(), 2u);
     const Camera& camera = *file.sensors[1].camera();

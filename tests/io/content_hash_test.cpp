@@ -5,6 +5,7 @@
 
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -36,15 +37,11 @@ class LightHash : public testing::Test {
     std::string hash_with(const std::string& old = "", const std::string& text = "") {
         std::string scene = kScene;
         scene.replace(scene.find(old), old.size(), text);
-        const std::string name = testing::UnitTest::GetInstance()->current_test_info()->name();
-        const auto path = std::filesystem::path(testing::TempDir()) / (name + ".toml");
-        const auto mesh = std::filesystem::path(testing::TempDir()) / (name + ".obj");
-        write_file(path, scene);
-        write_file(mesh, mesh_);
-        return light_hash(std::vector{path, mesh});
+        return light_hash(std::vector{folder_.write("room.toml", scene), folder_.write("room.obj", mesh_)});
     }
 
     std::string mesh_ = "v 0 0 0\n";
+    const TestFolder folder_;
 };
 
 TEST_F(LightHash, IsThatOfMaterialsObjectsAndLights) {

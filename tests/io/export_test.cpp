@@ -10,6 +10,7 @@
 #include "io/scene_text.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -72,17 +73,10 @@ resolution = [64, 48]
 
 class Export : public testing::Test {
   protected:
-    Export()
-        : folder_(std::filesystem::path(testing::TempDir()) /
-                  testing::UnitTest::GetInstance()->current_test_info()->name()) {
-        std::filesystem::remove_all(folder_);
-    }
-    ~Export() override { std::filesystem::remove_all(folder_); }
-
     std::string content(const std::string& name) const { return read_whole_file(folder_ / name); }
     ExportReport write(ExportFormat format) const { return export_scene(read_text(kRoom), format, folder_); }
 
-    std::filesystem::path folder_;
+    const TestFolder folder_;
 };
 
 bool contains(const std::string& text, std::string_view part) { return text.find(part) != std::string::npos; }
@@ -129,7 +123,6 @@ TEST_F(Export, WarningsNameWhatHasNoEqual) {
 }
 
 TEST_F(Export, RefusesTheFolderOfTheScene) {
-    std::filesystem::create_directories(folder_);
     const std::filesystem::path scene = folder_ / "scene.toml";
     std::ofstream(scene) << kRoom;
     EXPECT_THROW(export_scene(read_scene_file(scene), ExportFormat::mitsuba, folder_), InputError);

@@ -6,6 +6,7 @@
 
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -50,12 +51,8 @@ TEST(FileKind, FilesOfOtherProgramsAreNamed) {
 
 class FilesOfKinds : public testing::Test {
   protected:
-    FilesOfKinds() { fs::create_directories(folder_); }
-    ~FilesOfKinds() override { fs::remove_all(folder_); }
-
     fs::path file(const std::string& name, const std::string& content) const {
-        std::ofstream(folder_ / name, std::ios::binary) << content;
-        return folder_ / name;
+        return folder_.write(name, content);
     }
 
     static std::string refusal(const fs::path& output, FileKind kind, const std::vector<fs::path>& inputs) {
@@ -67,7 +64,7 @@ class FilesOfKinds : public testing::Test {
         }
     }
 
-    const fs::path folder_ = picture_path("");
+    const TestFolder folder_;
 };
 
 TEST_F(FilesOfKinds, TheContentCountsMoreThanTheName) {

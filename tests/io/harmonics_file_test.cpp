@@ -11,6 +11,7 @@
 #include "io/text/table.h"
 #include "math/spherical_harmonics.h"
 #include "stilb/error.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -106,7 +107,8 @@ TEST(HarmonicsFile, NamesWhatIsWrong) {
 }
 
 TEST(HarmonicsFile, OfDiskNamesThePath) {
-    const auto path = std::filesystem::temp_directory_path() / fmt::format("harmonics_{}.json", ::getpid());
+    const TestFolder folder;
+    const auto path = folder / "ball.json";
     write_harmonics(sample(3), path);
     EXPECT_EQ(read_harmonics(path).coefficients.size(), 16u);
     std::filesystem::remove(path);

@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "io/mesh_checks.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -309,7 +310,8 @@ TEST(MeshFile, files_that_cannot_be_read) {
     EXPECT_EQ(message("room.stl"),
               "room.stl: the extension \".stl\" is not a supported mesh format: use .obj, .ply, .gltf "
               "or .glb");
-    const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "folder.obj";
+    const TestFolder folder;
+    const std::filesystem::path directory = folder / "folder.obj";
     std::filesystem::create_directory(directory);
     EXPECT_EQ(message(directory),
               directory.string() + ": cannot be read, because it is a folder. Name a file.");
@@ -317,9 +319,10 @@ TEST(MeshFile, files_that_cannot_be_read) {
 }
 
 TEST(MeshFile, extension_in_any_case) {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "square.OBJ";
-    std::ofstream(path) << kSquare << "f 1 2 3 4\n";
-    EXPECT_EQ(read_mesh_file(path).mesh.triangles.size(), 2U);
+    const TestFolder folder;
+    EXPECT_EQ(read_mesh_file(folder.write("square.OBJ", std::string(kSquare) + "f 1 2 3 4\n"))
+                  .mesh.triangles.size(),
+              2U);
 }
 
 }  // namespace

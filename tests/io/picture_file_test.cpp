@@ -9,6 +9,7 @@
 #include "lights/colour_temperature.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -17,17 +18,15 @@ namespace fs = std::filesystem;
 
 class PictureFile : public testing::Test {
   protected:
-    PictureFile() { fs::create_directories(folder_); }
-    ~PictureFile() override { fs::remove_all(folder_); }
-
     std::vector<std::string> files() const {
         std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename());
+        for (const auto& entry : fs::directory_iterator(folder_.path()))
+            names.push_back(entry.path().filename());
         std::sort(names.begin(), names.end());
         return names;
     }
 
-    const fs::path folder_ = picture_path("");
+    const TestFolder folder_;
 };
 
 TEST_F(PictureFile, WritesByExtensionAndReadsByContent) {

@@ -3,17 +3,15 @@
 #include "io/luminance_results.h"
 #include "io/results/results_writer.h"
 #include "io/text/text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
 
 std::string csv_of(const RunResult& made, const std::string& sensor) {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / ("stilb_csv_" + test);
-    write_results_csv(made, folder);
-    const std::string content = read_whole_file(folder / (sensor + ".csv"));
-    std::filesystem::remove_all(folder);
-    return content;
+    const TestFolder folder;
+    write_results_csv(made, folder / "csv");
+    return read_whole_file(folder / "csv" / (sensor + ".csv"));
 }
 
 TEST(ResultsCsv, HasALineForEachLineOfSight) {

@@ -3,6 +3,7 @@
 #include <fstream>
 
 #include "io/scene_text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -232,11 +233,10 @@ TEST(SceneFile, WarnsOfUnusedMaterialsAndOfDarkness) {
 }
 
 TEST(SceneFile, IsReadFromDisk) {
-    const std::filesystem::path path =
-        std::filesystem::path(testing::TempDir()) / "stilb_scene_file_test.toml";
-    std::ofstream(path) << kRoom;
+    const TestFolder folder;
+    const std::filesystem::path path = folder.write("room.toml", kRoom);
     EXPECT_EQ(read_scene_file(path).scene.objects.size(), 4u);
-    std::ofstream(path) << "[run]\nseed = -1";
+    folder.write("room.toml", "[run]\nseed = -1");
     try {
         read_scene_file(path);
         ADD_FAILURE() << "accepted";
@@ -248,11 +248,11 @@ TEST(SceneFile, IsReadFromDisk) {
 }
 
 TEST(SceneFile, SaysWhatOtherFilesAre) {
+    const TestFolder folder;
     for (const auto& [name, is, use] : {std::array{"room.OBJ", "an OBJ mesh", "an object"},
                                         {"lamp.ies", "an IES luminaire", "a light"},
                                         {"room.rad", "a Radiance scene", "Commands that take a scene"}}) {
-        const auto path = std::filesystem::path(testing::TempDir()) / name;
-        std::ofstream(path) << "words";
+        const auto path = folder.write(name, "words");
         try {
             read_scene_file(path);
             ADD_FAILURE() << "accepted";
@@ -261,7 +261,6 @@ TEST(SceneFile, SaysWhatOtherFilesAre) {
             EXPECT_TRUE(message.starts_with(path.string() + ": not a scene but " + is + ". ")) << message;
             EXPECT_NE(message.find(use), std::string::npos) << message;
         }
-        std::filesystem::remove(path);
     }
 }
 

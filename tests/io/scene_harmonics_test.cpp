@@ -6,6 +6,7 @@
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/harmonics_file.h"
 #include "io/scene_text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -50,8 +51,7 @@ TEST(SceneHarmonics, AreScaledAndTurnedAboutTheCenterThatIsGiven) {
 }
 
 TEST(SceneHarmonics, FromAFileLieWhereItsMeshLay) {
-    const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "scene_harmonics";
-    std::filesystem::create_directories(directory);
+    const TestFolder directory;
     write_harmonics({{kUnit}, {1, 2, 3}}, directory / "ball.json");
     const std::string file = "file = \"ball.json\"\n";
     expect_near(shape_of(object(file), directory).center, {1, 2, 3}, 1e-6);
@@ -60,7 +60,6 @@ TEST(SceneHarmonics, FromAFileLieWhereItsMeshLay) {
                 1e-6);
     const SceneFile scene = read_text(object(file), directory);
     ASSERT_EQ(scene.sources.size(), 1u);  // what a hash of the scene is made of
-    std::filesystem::remove_all(directory);
 }
 
 TEST(SceneHarmonics, EndAtTheDegreeAskedFor) {

@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "io/scene_text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -32,13 +33,7 @@ f 5 6 7 8
 
 class SceneLampFaces : public testing::Test {
   protected:
-    void SetUp() override {
-        directory_ = std::filesystem::path(testing::TempDir()) /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::create_directories(directory_);
-        std::ofstream(directory_ / "cube.obj") << kCube;
-    }
-    void TearDown() override { std::filesystem::remove_all(directory_); }
+    void SetUp() override { std::ofstream(directory_ / "cube.obj") << kCube; }
 
     /// Ten lines before the first light.
     static std::string cube(const std::string& lights) {
@@ -64,7 +59,7 @@ materials = { glass = "glow" }
         return std::get<Mesh>(object.shape).triangles.size();
     }
 
-    std::filesystem::path directory_;
+    const TestFolder directory_;
 };
 
 TEST_F(SceneLampFaces, AreAnObjectOfTheirOwn) {

@@ -5,6 +5,7 @@
 #include "io/image/picture_file.h"
 #include "io/scene_text.h"
 #include "scene/installed_power.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -63,20 +64,17 @@ TEST(SceneLights, SpheresShareTheirMaterial) {
 class PanoramaFolder {
   public:
     explicit PanoramaFolder(const std::optional<Camera>& camera = std::nullopt) {
-        std::filesystem::create_directories(path_);
         Picture picture{8, 4, {}, {}, {}, {}, camera, {}};
         for (int i = 0; i < 32; ++i) {
             const float value = i % 8 < 4 ? 64.0F : 0.0F;
             picture.rgb_cd_m2.push_back({value, value, value});
         }
-        write_picture(picture, path_ / "sky.exr");
+        write_picture(picture, folder_ / "sky.exr");
     }
-    ~PanoramaFolder() { std::filesystem::remove_all(path_); }
-    const std::filesystem::path& path() const { return path_; }
+    const std::filesystem::path& path() const { return folder_; }
 
   private:
-    std::filesystem::path path_ = std::filesystem::path(testing::TempDir()) /
-                                  testing::UnitTest::GetInstance()->current_test_info()->name();
+    const TestFolder folder_;
 };
 
 TEST(SceneLights, EnvironmentOfOneLuminance) {
@@ -235,14 +233,10 @@ TEST(SceneLights, RefusesPhotometryWithoutItsFile) {
 class ScenePhotometry : public testing::Test {
   protected:
     void SetUp() override {
-        directory_ = std::filesystem::path(testing::TempDir()) /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::create_directories(directory_);
         std::ofstream(directory_ / "half.ies") << ies(1000);
         std::ofstream(directory_ / "too_much.ies") << ies(100);
         std::ofstream(directory_ / "broken.ies") << "IESNA:LM-63-2002\nTILT=NONE\n1 1000";
     }
-    void TearDown() override { std::filesystem::remove_all(directory_); }
 
     static std::string ies(int lamp_lm) {
         return "IESNA:LM-63-2002\n[LUMINAIRE] half\nTILT=NONE\n1 " + std::to_string(lamp_lm) +
@@ -256,7 +250,7 @@ class ScenePhotometry : public testing::Test {
     }
 
     static constexpr double kFlux = 2 * kPi * 100;
-    std::filesystem::path directory_;
+    const TestFolder directory_;
 };
 
 TEST_F(ScenePhotometry, HangsStraightDownWithTheFilesFlux) {

@@ -6,6 +6,7 @@
 #include "io/scene_text.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -28,9 +29,6 @@ std::string housing() {
 class LuminaireBody : public testing::Test {
   protected:
     void SetUp() override {
-        directory_ = std::filesystem::path(testing::TempDir()) /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::create_directories(directory_);
         std::ofstream(directory_ / "housing.obj") << housing();
         const auto ies = [](const char* angles, const char* intensities, int count) {
             return fmt::format("IESNA:LM-63-2002\nTILT=NONE\n1 -1 1 {} 1 1 2 0.3 0.5 0\n1 1 0\n{}\n0\n{}\n",
@@ -39,7 +37,6 @@ class LuminaireBody : public testing::Test {
         std::ofstream(directory_ / "down.ies") << ies("0 45 90", "200 160 0", 3);
         std::ofstream(directory_ / "both.ies") << ies("0 60 90 120 180", "200 100 0 100 150", 5);
     }
-    void TearDown() override { std::filesystem::remove_all(directory_); }
 
     static std::string light(const std::string& keys) {
         return std::string(kMaterials) + "[lights.a]\ntype = \"photometry\"\n" + keys;
@@ -47,7 +44,7 @@ class LuminaireBody : public testing::Test {
     SceneFile read(const std::string& keys) const { return read_text(light(keys), directory_); }
     std::string refusal_of(const std::string& keys) const { return refusal(light(keys), directory_); }
 
-    std::filesystem::path directory_;
+    const TestFolder directory_;
 };
 
 const Object& object_named(const Scene& scene, std::string_view name) {

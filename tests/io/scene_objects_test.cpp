@@ -2,6 +2,7 @@
 #include <fstream>
 
 #include "io/scene_text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -170,15 +171,11 @@ TEST(SceneObjects, RefusesWrongPolygons) {
 class SceneMeshes : public testing::Test {
   protected:
     void SetUp() override {
-        directory_ = std::filesystem::path(testing::TempDir()) /
-                     testing::UnitTest::GetInstance()->current_test_info()->name();
-        std::filesystem::create_directories(directory_);
         std::ofstream(directory_ / "room.obj") << "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\n"
                                                   "g ground\nusemtl carpet\nf 1 2 3 4\n"
                                                   "g back\nusemtl paint\nf 1 2 6 5\n";
         std::ofstream(directory_ / "empty.obj") << "v 0 0 0\n";
     }
-    void TearDown() override { std::filesystem::remove_all(directory_); }
 
     static std::string mesh(const std::string& keys) {
         return object("shape = \"mesh\"\nfile = \"room.obj\"\n" + keys);
@@ -188,7 +185,7 @@ class SceneMeshes : public testing::Test {
     }
 
     static constexpr MaterialId kWall{0}, kFloor{1};
-    std::filesystem::path directory_;
+    const TestFolder directory_;
 };
 
 TEST_F(SceneMeshes, MaterialForAll) { EXPECT_EQ(materials("material = \"floor\""), std::vector{kFloor}); }

@@ -10,6 +10,7 @@
 #include "run/run.h"
 #include "scene/instances.h"
 #include "statistics/interval.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -42,8 +43,7 @@ void write_plate(const std::filesystem::path& file, std::size_t triangles) {
 }
 
 TEST(SharedMeshes, GiveTheSameLightAsCopies) {
-    const std::filesystem::path directory = std::filesystem::path(testing::TempDir()) / "shared_meshes";
-    std::filesystem::create_directories(directory);
+    const TestFolder directory;
     std::string text =
         "[materials.wall]\ntype = \"diffuse\"\nreflectance = 0.5\n"
         "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [5, 3, 2.5]\nmaterial = \"wall\"\n"
@@ -77,7 +77,6 @@ TEST(SharedMeshes, GiveTheSameLightAsCopies) {
             EXPECT_LT(other[i].standard_error, 0.02 * other[i].value) << i;
         }
     }
-    std::filesystem::remove_all(directory);
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "run/solve.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -159,7 +160,8 @@ TEST(SolutionFile, SizesOfContentsAreChecked) {
 }
 
 TEST(SolutionFile, IsWrittenAndRead) {
-    const auto path = std::filesystem::path(testing::TempDir()) / "a.solution";
+    const TestFolder folder;
+    const auto path = folder / "a.solution";
     write_solution_file(sample_solution(), path);
     EXPECT_EQ(read_whole_file(path), sample_bytes());
     EXPECT_EQ(read_solution_file(path).scene, "rooms/room.toml");

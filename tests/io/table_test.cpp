@@ -13,6 +13,7 @@
 
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -59,7 +60,8 @@ TEST(Table, RefusesColumnsOfDifferentLengths) {
 
 TEST(Table, WritesFiles) {
     const std::vector<Column> columns{{"a", Numbers{1}}};
-    const auto path = picture_path(".csv");
+    const TestFolder folder;
+    const auto path = folder / "a.csv";
     write_csv(columns, path);
     EXPECT_EQ(read_text(path), to_csv(columns));
     EXPECT_THROW(write_csv(columns, "/no/such/folder/a.csv"), InputError);
@@ -67,18 +69,18 @@ TEST(Table, WritesFiles) {
 
 /// The names of temporary files are no longer than those of files may be.
 TEST(Table, WritesFilesWithTheLongestNames) {
+    const TestFolder folder;
     for (const std::size_t length : {245u, 246u, 247u, 255u}) {
-        const auto path = picture_path(".txt").replace_filename(std::string(length, 'n'));
+        const auto path = folder / std::string(length, 'n');
         require_writable(path);
         replace_file(path, "content");
         EXPECT_EQ(read_text(path), "content") << length;
-        std::filesystem::remove(path);
     }
 }
 
 TEST(Table, ReplacesFilesInOneStepAndLeavesLinks) {
-    const auto path = picture_path(".txt"), link = picture_path(".link"), loose = picture_path(".loose");
-    for (const auto& file : {path, link, loose}) std::filesystem::remove(file);
+    const TestFolder folder;
+    const auto path = folder / "a.txt", link = folder / "a.link", loose = folder / "a.loose";
     replace_file(path, "old");
     std::filesystem::create_symlink(path, link);
     const std::ifstream reader(path);
@@ -97,7 +99,8 @@ TEST(Table, ReplacesFilesInOneStepAndLeavesLinks) {
 }
 
 TEST(Table, NamesTheFileThatIsUnfinished) {
-    const auto path = picture_path(".bin");
+    const TestFolder folder;
+    const auto path = folder / "a.bin";
     EXPECT_EQ(unfinished_file(), nullptr);
     const std::string content(std::size_t{1} << 27, 'x');  // takes long enough to be seen unfinished
     std::thread writer([&] { replace_file(path, content); });
@@ -107,7 +110,6 @@ TEST(Table, NamesTheFileThatIsUnfinished) {
     writer.join();
     EXPECT_EQ(unfinished_file(), nullptr);
     EXPECT_EQ(std::filesystem::file_size(path), content.size());
-    std::filesystem::remove(path);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "io/mesh_checks.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -19,10 +20,8 @@ namespace {
 constexpr std::array<std::size_t, 8> kPieceSizes{1, 2, 3, 5, 7, 16, 61, 1000};
 
 std::filesystem::path written(const std::string& content) {
-    const std::string test = testing::UnitTest::GetInstance()->current_test_info()->name();
-    const auto path = std::filesystem::path(testing::TempDir()) / ("pieces_" + test);
-    write_file(path, content);
-    return path;
+    static const TestFolder folder;
+    return folder.write("pieces", content);
 }
 
 struct Line {
@@ -99,7 +98,7 @@ TEST(UnreadBytes, AMonitorTakesTheShareAndInterrupts) {
     });
     FilePieces file(written("0123456789"), monitor, 5);
     UnreadBytes bytes(file);
-    EXPECT_EQ(last_stage, "reading pieces_AMonitorTakesTheShareAndInterrupts");
+    EXPECT_EQ(last_stage, "reading pieces");
     EXPECT_EQ(shares, std::vector{0.5});
     interrupt = true;
     EXPECT_THROW(bytes.extend(), Cancelled);

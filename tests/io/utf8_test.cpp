@@ -10,6 +10,7 @@
 #include "io/scene/scene_file.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::io {
 namespace {
@@ -19,9 +20,8 @@ using namespace std::string_literals;
 const std::string kMark = "\xEF\xBB\xBF";
 
 std::filesystem::path file(const std::string& extension, const std::string& content) {
-    const auto path = picture_path(extension);
-    std::ofstream(path, std::ios::binary) << content;
-    return path;
+    static const TestFolder folder;
+    return folder.write("a" + extension, content);
 }
 
 TEST(Utf8, TextStartsBehindAByteOrderMark) {

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::plot {
 namespace {
@@ -100,7 +101,8 @@ TEST(CellNumbers, AreNotCrossedByIsolines) {
     cell_numbers.fit_into({50, 50});
     const std::vector<CellNumber> numbers = cell_numbers.place(kFrame);
     const auto draw = [&](const std::string& name, bool isolines) {
-        const auto path = picture_path(name);
+        const TestFolder folder;
+        const auto path = folder / name;
         Canvas canvas(path, 620, 480);
         FalseColourPainter painter(canvas, Scale(ScaleType::linear, {0, 200}));
         painter.draw_cells(panel, kFrame);

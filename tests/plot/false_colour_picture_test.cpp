@@ -8,6 +8,7 @@
 #include "plot/false_colour.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::plot {
 namespace {
@@ -35,7 +36,8 @@ FalseColourOptions zero_to_hundred() {
 }
 
 PngPixels draw(const io::Picture& picture, const FalseColourOptions& options) {
-    const auto path = picture_path(".png");
+    const TestFolder folder;
+    const auto path = folder / "a.png";
     draw_false_colour(picture, "Luminance", options, path);
     return read_png(path);
 }
@@ -128,7 +130,8 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
 }
 
 TEST(FalseColourPicture, EmbedsTheImageInAnSvg) {
-    const auto path = picture_path(".svg");
+    const TestFolder folder;
+    const auto path = folder / "a.svg";
     draw_false_colour(io::sample_picture(1280, 720), "Luminance", {}, path);
     const std::string svg = read_text(path);
     EXPECT_NE(svg.find("data:image/png;base64,"), svg.npos);

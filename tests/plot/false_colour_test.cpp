@@ -6,6 +6,7 @@
 
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::plot {
 namespace {
@@ -25,7 +26,8 @@ FalseColourOptions zero_to_hundred() {
 }
 
 PngPixels draw(const FalseColour& picture, const FalseColourOptions& options) {
-    const auto path = picture_path(".png");
+    const TestFolder folder;
+    const auto path = folder / "a.png";
     draw_false_colour(picture, options, path);
     return read_png(path);
 }
@@ -152,7 +154,8 @@ TEST(FalseColour, DrawsIsolinesWhereTheyBelong) {
 TEST(FalseColour, WritesSvgOfTheSameProportions) {
     const FalseColour picture = with_one_cell(1, 3, 60);
     const PngPixels pixels = draw(picture, zero_to_hundred());
-    const auto path = picture_path(".svg");
+    const TestFolder folder;
+    const auto path = folder / "a.svg";
     draw_false_colour(picture, zero_to_hundred(), path);
     const std::string svg = read_text(path);
     EXPECT_EQ(svg.rfind("<?xml", 0), 0u);

@@ -2,6 +2,7 @@
 
 #include "plot/canvas.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::plot {
 namespace {
@@ -15,7 +16,8 @@ LabelledPicture plain(const std::array<float, 3>& rgb_cd_m2) {
 }
 
 TEST(PictureSheet, ShowsEveryPixelByOneCurve) {
-    const auto path = picture_path(".png");
+    const TestFolder folder;
+    const auto path = folder / "a.png";
     const io::ToneCurve curve(0.1);
     const std::array<std::array<float, 3>, 3> colours{{{1, 1, 5}, {4, 1, 1}, {9, 9, 2}}};
     draw_picture_sheet({plain(colours[0]), plain(colours[1]), plain(colours[2])}, 2, curve, path);

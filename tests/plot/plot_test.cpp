@@ -6,12 +6,14 @@
 
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::plot {
 namespace {
 
 PngPixels draw(const Plot& plot) {
-    const auto path = picture_path(".png");
+    const TestFolder folder;
+    const auto path = folder / "a.png";
     draw_plot(plot, path);
     return read_png(path);
 }
@@ -123,7 +125,8 @@ TEST(Plot, PanelsShareTheXAxis) {
 }
 
 TEST(Plot, WritesSvg) {
-    const auto path = picture_path(".svg");
+    const TestFolder folder;
+    const auto path = folder / "a.svg";
     draw_plot(plot_of({{"line", {0, 10}, {0, 10}}}), path);
     const std::string svg = read_text(path);
     EXPECT_EQ(svg.rfind("<?xml", 0), 0u);

@@ -6,12 +6,14 @@
 #include "plot/plot.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
+#include "support/test_folder.h"
 
 namespace stilb::plot {
 namespace {
 
 PngPixels draw(const PolarPlot& plot) {
-    const auto path = picture_path(".png");
+    const TestFolder folder;
+    const auto path = folder / "a.png";
     draw_polar_plot(plot, path);
     return read_png(path);
 }
@@ -84,7 +86,8 @@ TEST(PolarPlot, TakesTheRoomThatItsTextsNeed) {
 }
 
 TEST(PolarPlot, WritesSvg) {
-    const auto path = picture_path(".svg");
+    const TestFolder folder;
+    const auto path = folder / "a.svg";
     draw_polar_plot({"", "L", {{"line", {-90, 90}, {1, 2}}}}, path);
     const std::string svg = read_text(path);
     EXPECT_EQ(svg.rfind("<?xml", 0), 0u);

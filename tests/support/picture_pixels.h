@@ -75,13 +75,6 @@ inline Spot find_colour(const PngPixels& pixels, const io::Colour& colour, int x
     return spot;
 }
 
-/// A path in the temporary folder that no other test of the same run uses.
-inline std::filesystem::path picture_path(const std::string& extension) {
-    const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-    return std::filesystem::path(testing::TempDir()) /
-           (std::string("stilb_") + info->test_suite_name() + "_" + info->name() + extension);
-}
-
 inline std::string read_text(const std::filesystem::path& path) {
     std::ifstream file(path, std::ios::binary);
     return {std::istreambuf_iterator<char>(file), {}};

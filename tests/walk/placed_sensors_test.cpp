@@ -9,6 +9,7 @@
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
+#include "support/test_folder.h"
 
 namespace stilb::walk {
 namespace {
@@ -99,9 +100,7 @@ TEST(PlacedSensors, WrongOnesAreRefused) {
 }
 
 TEST(PlacedSensors, AreSavedIntoNewFilesOnly) {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "stilb_placed_sensors";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directory(folder);
+    const TestFolder folder;
     io::write_file(folder / "room-sensors-2.toml", "mine");
     EXPECT_EQ(save_beside(folder / "room.toml", "one"), folder / "room-sensors.toml");
     EXPECT_EQ(save_beside(folder / "room.toml", "two"), folder / "room-sensors-3.toml");
@@ -114,13 +113,10 @@ TEST(PlacedSensors, AreSavedIntoNewFilesOnly) {
     EXPECT_FALSE(std::filesystem::exists(folder / "elsewhere"));
     EXPECT_EQ(save_beside(folder / "none" / "room.toml", "one"), std::nullopt);
     EXPECT_EQ(save_beside("-", "one"), std::nullopt);
-    std::filesystem::remove_all(folder);
 }
 
 TEST(PlacedSensors, TheAnswerSaysWhereTheyAre) {
-    const std::filesystem::path folder = std::filesystem::path(testing::TempDir()) / "stilb_kept_sensors";
-    std::filesystem::remove_all(folder);
-    std::filesystem::create_directory(folder);
+    const TestFolder folder;
     const std::string request =
         one(R"("name": "a", "type": "illuminance", "position": [1, 1, 1], "normal": [0, 0, 1])");
     const std::string answer = keep_placed_sensors(request, {}, folder / "room.toml");
@@ -129,7 +125,6 @@ TEST(PlacedSensors, TheAnswerSaysWhereTheyAre) {
     const std::string text = io::read_whole_file(folder / "room-sensors.toml");
     EXPECT_EQ(io::read_scene(kRoom + text, "s.toml", ".").sensors.size(), 1u);
     EXPECT_THROW(keep_placed_sensors(request, {}, folder / "none" / "room.toml"), InputError);
-    std::filesystem::remove_all(folder);
 }
 
 }  // namespace
