@@ -51,7 +51,8 @@ CubeRaster::CubeRaster(int cells) : cells_(cells) {
 /// Cells have the same number where a symmetry of the cube moves one to the other.
 std::size_t CubeRaster::number_of(int i, int j) const {
     const auto [low, high] = std::minmax({std::min(i, cells_ - 1 - i), std::min(j, cells_ - 1 - j)});
-    return static_cast<std::size_t>(high * (high + 1) / 2 + low);
+    const int number = high * (high + 1) / 2 + low;
+    return static_cast<std::size_t>(number);
 }
 
 std::vector<double> CubeRaster::factors(double x, double y) const {

@@ -11,9 +11,9 @@ Material split_off(const Ward& ward) {
 }
 
 struct Divider {
-    static SplitMaterial parts(const Rgb& diffuse, Material gloss) {
+    static SplitMaterial parts(const Rgb& diffuse, const Material& gloss) {
         SplitMaterial result{Diffuse{diffuse}, std::nullopt};
-        if (reflectance_bound(gloss).max() > 0) result.gloss = std::move(gloss);
+        if (reflectance_bound(gloss).max() > 0) result.gloss = gloss;
         return result;
     }
 

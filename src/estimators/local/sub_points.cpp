@@ -134,7 +134,8 @@ Rgb SubPoints::add(transport::Path& path, std::uint32_t reading,
 
 std::size_t SubPoints::cell_of(const Pixel& pixel) const {
     const int cells_per_row = (tracing_.camera.resolution[0] + cell_edge_ - 1) / cell_edge_;
-    return static_cast<std::size_t>(pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_);
+    const int cell = pixel.y / cell_edge_ * cells_per_row + pixel.x / cell_edge_;
+    return static_cast<std::size_t>(cell);
 }
 
 std::vector<transport::Receiver> SubPoints::of_cell(std::size_t cell, const Pass& pass) const {

@@ -63,7 +63,8 @@ EnvironmentLight distant_lights(const std::vector<DistantLight>& lights) {
     Panorama::Image image{kSkyWidth, kSkyHeight, {}};
     image.rgb_cd_m2.resize(static_cast<std::size_t>(kSkyWidth) * kSkyHeight);
     // The middle of the pixel that is left of the picture's middle and above it.
-    const double azimuth = kPi / kSkyWidth, z = std::cos(kPi * (kSkyHeight / 2 - 1) / kSkyHeight) / 2;
+    constexpr int row_above = kSkyHeight / 2 - 1;
+    const double azimuth = kPi / kSkyWidth, z = std::cos(kPi * row_above / kSkyHeight) / 2;
     const double r = std::sqrt(1 - z * z);
     const Vec3 middle{r * std::cos(azimuth), r * std::sin(azimuth), z};
     EnvironmentLight sky;

@@ -48,8 +48,8 @@ std::uint32_t unsigned_of(double steps) {
 }
 
 double steps_of(std::uint32_t number) {
-    const auto half = static_cast<double>(number / 2);
-    return number % 2 == 0 ? half : -half - 1;
+    const std::uint32_t half = number / 2;
+    return number % 2 == 0 ? half : -static_cast<double>(half) - 1;
 }
 
 }  // namespace

@@ -87,19 +87,22 @@ std::vector<std::size_t> replicates_of(std::size_t half, std::optional<std::size
 /// The mean luminance of each pixel and its neighbours that see no lamp, by some replicates.
 std::vector<float> smoothed(const EyePicture& picture, const std::vector<std::size_t>& replicates) {
     const int width = picture.width;
+    const auto index_of = [&](int x, int y) {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
+    };
     std::vector<float> result(picture.weights_sr.size());
     for (int y = 0; y < width; ++y) {
         for (int x = 0; x < width; ++x) {
             float sum = 0, count = 0;
             for (int v = std::max(y - 1, 0); v <= std::min(y + 1, width - 1); ++v) {
                 for (int u = std::max(x - 1, 0); u <= std::min(x + 1, width - 1); ++u) {
-                    const auto pixel = static_cast<std::size_t>(v * width + u);
+                    const std::size_t pixel = index_of(u, v);
                     if (!(picture.weights_sr[pixel] > 0)) continue;
                     for (const std::size_t r : replicates) sum += picture.luminances_cd_m2[pixel][r];
                     count += static_cast<float>(replicates.size());
                 }
             }
-            if (count > 0) result[static_cast<std::size_t>(y * width + x)] = sum / count;
+            if (count > 0) result[index_of(x, y)] = sum / count;
         }
     }
     return result;

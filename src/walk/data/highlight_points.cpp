@@ -26,8 +26,9 @@ std::vector<HighlightPoint> points_on(const Rectangle& rectangle) {
     const Vec3 normal = normalized(cross(rectangle.edge_u, rectangle.edge_v));
     std::vector<HighlightPoint> points;
     for (std::size_t i = 0; i < kOnSurface; ++i) {
-        const double s = (static_cast<double>(i % kRows) + 0.5) / kRows;
-        const double t = (static_cast<double>(i / kRows) + 0.5) / kRows;
+        const std::size_t row = i / kRows, column = i % kRows;
+        const double s = (static_cast<double>(column) + 0.5) / kRows;
+        const double t = (static_cast<double>(row) + 0.5) / kRows;
         points.push_back({rectangle.corner + s * rectangle.edge_u + t * rectangle.edge_v, normal, 1});
     }
     return points;

@@ -104,11 +104,13 @@ ReflectionTable make_reflection_table(const Material& material, int degree) {
         return {1, 1, {to_float_rgb(diffuse->reflectance * (1 / std::sqrt(kPi)))}};
     const math::ZernikeBasis basis(degree);
     ReflectionTable table{kThetas, is_isotropic(material) ? 1 : kPhis, {}};
-    const std::size_t directions = static_cast<std::size_t>(table.thetas * table.phis);
+    const std::size_t directions =
+        static_cast<std::size_t>(table.thetas) * static_cast<std::size_t>(table.phis);
     table.factors.resize(directions * basis.count());
     parallel_for(directions, [&](std::size_t i) {
-        const double theta = static_cast<double>(i / table.phis) / (table.thetas - 1) * kMostTheta;
-        const double phi = static_cast<double>(i % table.phis) / table.phis * 2 * kPi;
+        const std::size_t row = i / table.phis, column = i % table.phis;
+        const double theta = static_cast<double>(row) / (table.thetas - 1) * kMostTheta;
+        const double phi = static_cast<double>(column) / table.phis * 2 * kPi;
         const Vec3 out{std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)};
         const auto factors = std::span(table.factors).subspan(i * basis.count(), basis.count());
         integrate_factors(material, basis, out, kNodesOfTables, factors);

@@ -69,7 +69,7 @@ class CompiledReader {
     std::string text() {
         const std::size_t end = rest_.find('\0');
         if (end == rest_.npos) fail("the file ends too early.");
-        const std::string result(rest_.substr(0, end));
+        std::string result(rest_.substr(0, end));
         rest_.remove_prefix(end + 1);
         return result;
     }

@@ -241,7 +241,7 @@ void Collector::add_alias(const Primitive& primitive) {
     description_.modifiers.push_back(std::move(copy));
 }
 
-void Collector::add_surface(SurfaceKind kind, std::string name, std::optional<std::size_t> modifier,
+void Collector::add_surface(SurfaceKind kind, const std::string& name, std::optional<std::size_t> modifier,
                             std::vector<double> numbers, const Place& place) {
     count(place);
     const SourceLocation where = description_.where(place);
@@ -256,10 +256,10 @@ void Collector::add_surface(SurfaceKind kind, std::string name, std::optional<st
     all.insert(all.end(), numbers.begin(), numbers.end());
 }
 
-void Collector::add_surface(SurfaceKind kind, std::string name, const std::string& modifier,
+void Collector::add_surface(SurfaceKind kind, const std::string& name, const std::string& modifier,
                             std::vector<double> numbers, const Place& place) {
     const std::string& own = xform_.modifier.empty() ? modifier : xform_.modifier;
-    add_surface(kind, std::move(name), find(own, place), std::move(numbers), place);
+    add_surface(kind, name, find(own, place), std::move(numbers), place);
 }
 
 void Collector::add(Primitive primitive) {
@@ -268,8 +268,8 @@ void Collector::add(Primitive primitive) {
             return add_alias(primitive);
         case Role::surface: {
             const auto type = std::ranges::find(kSurfaceTypes, primitive.type, &SurfaceType::name);
-            return add_surface(type->kind, std::move(primitive.name), primitive.modifier,
-                               std::move(primitive.numbers), primitive.place);
+            return add_surface(type->kind, primitive.name, primitive.modifier, std::move(primitive.numbers),
+                               primitive.place);
         }
         default:
             add_modifier({std::move(primitive.type),

@@ -36,10 +36,10 @@ class Collector {
     /// Throws InputError where the primitive is wrong.
     void add(Primitive primitive);
     /// A surface that a program made, checked as one of a file.
-    void add_surface(SurfaceKind kind, std::string name, const std::string& modifier,
+    void add_surface(SurfaceKind kind, const std::string& name, const std::string& modifier,
                      std::vector<double> numbers, const Place& place);
     /// The same with a modifier that is known by its index.
-    void add_surface(SurfaceKind kind, std::string name, std::optional<std::size_t> modifier,
+    void add_surface(SurfaceKind kind, const std::string& name, std::optional<std::size_t> modifier,
                      std::vector<double> numbers, const Place& place);
     /// Adds a modifier, whose own modifier is known by its index; returns its own index.
     std::size_t add_modifier(Modifier modifier);

@@ -145,8 +145,9 @@ void add_mesh_triangle(std::span<const double> numbers, MeshBuilder& builder) {
     const std::uint32_t vertices = vertex_count(builder), normals = normal_count(builder);
     Triangle of_corners{kNoNormal, kNoNormal, kNoNormal};
     for (std::uint32_t i = 0; i < 3; ++i) {
-        builder.add_vertex(vector_at(numbers, 3 * i));
-        const Vec3 normal = vector_at(numbers, 9 + 3 * i);
+        const std::size_t at = std::size_t{3} * i;
+        builder.add_vertex(vector_at(numbers, at));
+        const Vec3 normal = vector_at(numbers, 9 + at);
         builder.add_normal(normal);
         if (length(normal) > 0) of_corners[i] = normals + i;
     }
