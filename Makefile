@@ -17,7 +17,7 @@ PEERS_FLAGS ?=
 configure = test -f build/$(1)/build.ninja -a ! $(PYTHON)/ready -nt build/$(1)/build.ninja || cmake --preset $(1)
 
 .DEFAULT_GOAL := help
-.PHONY: help setup setup-lint python-setup build demo test web wheel install verify-long verify-random bench bench-peers format format-check lint odr sanitize fuzz clean
+.PHONY: help setup setup-lint python-setup build demo test web wheel install verify-long verify-random bench bench-techniques bench-peers format format-check lint odr sanitize fuzz clean
 
 help: ## this list
 	@awk -F ':.*## ' '/^[a-z-]+:.*## / { printf "make %-14s %s\n", $$1, $$2 }' Makefile
@@ -72,6 +72,7 @@ verify-long: build ## all exact solutions at 0.2 %, CIE 171, closed meshes with 
 	@cmake --build --preset release
 	STILB_FINE=1 ctest --preset release -j $(JOBS) -R "^(agreement|run|walk|io):"
 	tests/long/verify_limits.py
+	$(MAKE) bench-techniques
 
 verify-random: setup ## SCENES random scenes (2000), from SEED (1), each measured in many ways that must agree: docs/verification.md
 	@$(call configure,release)
@@ -87,7 +88,13 @@ web: setup ## check and build the page of `stilb view` alone: build/release/page
 bench: setup ## the benchmarks
 	@$(call configure,release)
 	@cmake --build --preset release
-	@for program in $(RELEASE)/bench_*; do echo "$$program"; "$$program" || exit 1; done
+	@for program in $$(ls $(RELEASE)/bench_* | grep -v techniques); do \
+	    echo "$$program"; "$$program" || exit 1; done
+
+bench-techniques: setup ## counted work of each technique in ten scenes (or SCENES="room attic"): fails where it differs from the baseline
+	@$(call configure,release)
+	@cmake --build --preset release --target bench_techniques
+	$(RELEASE)/bench_techniques --baseline benchmarks/techniques/baseline.csv $(SCENES)
 
 $(PEERS)/ready: benchmarks/peers/requirements.txt
 	@scripts/setup peers

@@ -26,6 +26,14 @@ namespace {
 
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
+thread_local std::uint64_t traced_by_this_thread = 0;
+
+void count(const LaneMask& lanes) {
+    std::int32_t sum = 0;
+    for (const std::int32_t lane : lanes) sum += lane;
+    traced_by_this_thread += static_cast<std::uint64_t>(-sum);
+}
+
 /// Embree's threads call it while they build. Interruptions come between stages, not from here.
 bool report_build(void* monitor, double share) {
     try {
@@ -392,6 +400,7 @@ double RayCaster::offset_m(const Vec3& position, double size_m) const {
 }
 
 std::optional<Hit> RayCaster::closest(const Vec3& origin, const Vec3& direction) const {
+    ++traced_by_this_thread;
     const RTCRayHit found =
         implementation_->closest(Implementation::ray_from(origin - center(), direction, kInfinity));
     if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID) return std::nullopt;
@@ -432,6 +441,7 @@ void RayCaster::closest(std::span<const Ray> rays, Coherence coherence,
 }
 
 void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    count(lanes);
     if (implementation_->takes_few_triangles(lanes, coherence))
         return implementation_->few_triangles->closest(packet, lanes);
     if (implementation_->takes_single_rays()) return implementation_->closest_by_single_rays(packet, lanes);
@@ -512,6 +522,7 @@ std::span<const Vec3> RayCaster::measured() const { return implementation_->meas
 bool RayCaster::has_panes() const { return implementation_->has_panes; }
 
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
+    ++traced_by_this_thread;
     return implementation_->occluded(from - center(), to - center());
 }
 
@@ -569,6 +580,7 @@ RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
 }
 
 void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
+    count(lanes);
     if (implementation_->takes_few_triangles(lanes, coherence))
         return implementation_->few_triangles->occlude(packet, lanes);
     if (implementation_->takes_single_rays()) return implementation_->occlude_by_single_rays(packet, lanes);
@@ -589,5 +601,7 @@ void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence cohe
             });
     }
 }
+
+std::uint64_t traced_rays() { return traced_by_this_thread; }
 
 }  // namespace stilb::rays

@@ -155,4 +155,8 @@ class RayCaster {
     std::unique_ptr<Implementation> implementation_;
 };
 
+/// The number of rays that this thread has traced so far, with all casters: a measure of work without a
+/// clock. Lanes of packets count as rays.
+std::uint64_t traced_rays();
+
 }  // namespace stilb::rays
