@@ -23,11 +23,25 @@ std::uint64_t samples_of_a_round(const Measure& measure, std::uint64_t granulari
 
 double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC; }
 
-Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution) {
-    return [&, resolution](std::uint64_t round, std::uint64_t passes) {
+Measure readings_with(const estimators::Estimator& estimator, math::RandomKey key) {
+    return [&estimator, key](std::uint64_t round, std::uint64_t samples) {
+        estimators::ReadingSums sums(estimator.known_part().size());
+        estimator.run_batch({key.derived(round), 0, samples}, sums);
+        std::vector<double> values;
+        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
+            values.push_back(estimator.known_part()[j].luminance() +
+                             sums.sum[j].luminance() / static_cast<double>(samples));
+        }
+        return values;
+    };
+}
+
+Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution,
+                     math::RandomKey key) {
+    return [&estimator, resolution, key](std::uint64_t round, std::uint64_t passes) {
         std::vector<double> pixels;
         for (std::uint64_t index = 0; index < passes; ++index) {
-            const auto pass = estimator.start({math::RandomKey{3}.derived(round), index});
+            const auto pass = estimator.start({key.derived(round), index});
             std::size_t first = 0;
             for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
                 std::vector<Rgb> samples(static_cast<std::size_t>(block.width * block.height));

@@ -24,9 +24,13 @@ double processor_s();
 /// Estimates every reading in a round, by so many samples. Rounds are independent.
 using Measure = std::function<std::vector<double>(std::uint64_t round, std::uint64_t samples)>;
 
-/// Passes of a picture of that many columns and rows, as its pixels' luminances [cd/m2]. Keeps a reference to
-/// the estimator.
-Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution);
+// Both keep a reference to the estimator.
+
+/// All readings [lx or cd/m2].
+Measure readings_with(const estimators::Estimator& estimator, math::RandomKey key = math::RandomKey{3});
+/// Passes of a picture of that many columns and rows, as its pixels' luminances [cd/m2].
+Measure picture_with(const estimators::Estimator& estimator, const std::array<int, 2>& resolution,
+                     math::RandomKey key = math::RandomKey{3});
 
 /// Sixteen rounds, each of so many samples, `granularity` times a power of two, that it takes a third of a
 /// second.

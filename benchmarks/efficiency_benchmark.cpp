@@ -19,25 +19,12 @@
 namespace stilb {
 namespace {
 
-Measure measure_with(const estimators::Estimator& estimator) {
-    return [&](std::uint64_t round, std::uint64_t samples) {
-        estimators::ReadingSums sums(estimator.known_part().size());
-        estimator.run_batch({math::RandomKey{3}.derived(round), 0, samples}, sums);
-        std::vector<double> values;
-        for (std::size_t j = 0; j < sums.sum.size(); ++j) {
-            values.push_back(estimator.known_part()[j].luminance() +
-                             sums.sum[j].luminance() / static_cast<double>(samples));
-        }
-        return values;
-    };
-}
-
 Efficiency of_readings(const estimators::EstimatorEntry& method, const Scene& scene,
                        const std::vector<Measurand>& measurands) {
     const rays::RayCaster caster(scene);
     const auto estimator =
         method.make({scene, caster, transport::kUnlimited, math::RandomKey{5}, measurands});
-    return efficiency_of(measure_with(*estimator), estimator->batch_granularity());
+    return efficiency_of(readings_with(*estimator), estimator->batch_granularity());
 }
 
 Efficiency of_picture(const estimators::EstimatorEntry& method, const Scene& scene, const Camera& camera) {

@@ -16,7 +16,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <functional>
 #include <iterator>
 #include <map>
 #include <memory>
@@ -28,6 +27,7 @@
 #include <string_view>
 #include <vector>
 
+#include "efficiency.h"
 #include "estimators/estimator_list.h"
 #include "io/scene/scene_file.h"
 #include "io/text/table.h"
@@ -82,37 +82,13 @@ double rays_of(const Action& action) {
     return static_cast<double>(rays::traced_rays() - before);
 }
 
-/// One round of an estimator: the values of all readings.
-using Round = std::function<std::vector<double>(const estimators::Estimator& estimator, math::RandomKey key)>;
-
-std::vector<double> round_of_readings(const estimators::Estimator& estimator, math::RandomKey key) {
+/// The samples of a round: as many as a run takes before its first error estimate.
+std::uint64_t samples_of_a_round(const estimators::Estimator& estimator) {
     const std::uint64_t unit = estimator.batch_granularity();
-    const std::uint64_t samples = std::max(estimator.first_check(), (kLeastSamples + unit - 1) / unit * unit);
-    estimators::ReadingSums sums(estimator.known_part().size());
-    estimator.run_batch({key, 0, samples}, sums);
-    std::vector<double> values;
-    for (std::size_t j = 0; j < sums.sum.size(); ++j) {
-        values.push_back(estimator.known_part()[j].luminance() +
-                         sums.sum[j].luminance() / static_cast<double>(samples));
-    }
-    return values;
+    return std::max(estimator.first_check(), (kLeastSamples + unit - 1) / unit * unit);
 }
 
-/// A pass over a picture.
-Round round_of_picture(const std::array<int, 2>& resolution) {
-    return [=](const estimators::Estimator& estimator, math::RandomKey key) {
-        const auto pass = estimator.start({key, 0});
-        std::vector<double> values;
-        for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
-            std::vector<Rgb> pixels(static_cast<std::size_t>(block.width * block.height));
-            pass->sample(block, pixels);
-            for (const Rgb& pixel : pixels) values.push_back(pixel.luminance());
-        }
-        return values;
-    };
-}
-
-/// The mean of the relative standard errors that a run must reach, as it stops by 95 % of the readings.
+/// The mean relative standard error of the readings, without the worst 5 %: a run stops by the others.
 double error_of(const statistics::ReplicateTable& rounds) {
     std::vector<double> means, errors;
     const std::vector<statistics::Estimate> estimates = statistics::estimate_readings(rounds);
@@ -125,18 +101,22 @@ double error_of(const statistics::ReplicateTable& rounds) {
     return std::accumulate(errors.begin(), errors.end(), 0.0) / static_cast<double>(errors.size());
 }
 
-Work work_of(estimators::Problem problem, const estimators::EstimatorEntry& technique, math::RandomKey key,
-             const Round& round, std::uint64_t rounds) {
+/// The work for the readings of a problem, or for its picture.
+Work work_of(estimators::Problem problem, const estimators::EstimatorEntry& technique, math::RandomKey key) {
+    const std::uint64_t rounds = problem.camera ? kPictureRounds : kRounds;
     std::vector<double> set_ups, works;
     for (std::uint64_t i = 0; i < kSetUps; ++i) {
         const math::RandomKey own = key.derived(i);
         problem.preparation_key = own.derived(rounds);
         std::unique_ptr<estimators::Estimator> estimator;
         set_ups.push_back(rays_of([&] { estimator = technique.make(problem); }));
+        const Measure measure = problem.camera ? picture_with(*estimator, problem.camera->resolution, own)
+                                               : readings_with(*estimator, own);
+        const std::uint64_t samples = problem.camera ? 1 : samples_of_a_round(*estimator);
         std::vector<double> values;
         const double sampling = rays_of([&] {
-            for (std::uint64_t j = 0; j < rounds; ++j)
-                std::ranges::copy(round(*estimator, own.derived(j)), std::back_inserter(values));
+            for (std::uint64_t round = 0; round < rounds; ++round)
+                std::ranges::copy(measure(round, samples), std::back_inserter(values));
         });
         const double error = error_of({values, values.size() / rounds});
         works.push_back(sampling * error * error / 1e-4);
@@ -188,13 +168,11 @@ void measure(const Case& chosen, math::RandomKey key, Table& table) {
                                     .max_reflections = transport::kUnlimited,
                                     .preparation_key = key,
                                     .measurands = readings};
-        table[fmt::format("{},readings,{}", chosen.name, name)] =
-            work_of(problem, technique, key, round_of_readings, kRounds);
+        table[fmt::format("{},readings,{}", chosen.name, name)] = work_of(problem, technique, key);
         if (!camera) continue;
         problem.measurands = {};
         problem.camera = camera;
-        table[fmt::format("{},picture,{}", chosen.name, name)] =
-            work_of(problem, technique, key, round_of_picture(camera->resolution), kPictureRounds);
+        table[fmt::format("{},picture,{}", chosen.name, name)] = work_of(problem, technique, key);
     }
 }
 
