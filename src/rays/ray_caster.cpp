@@ -350,12 +350,6 @@ struct RayCaster::Implementation {
         return materials.size() == 1 ? materials[0] : materials[triangle];
     }
 
-    bool is_pane(const Hit& hit) const { return passes_straight(scene.material(hit.material)); }
-    /// The transmittance for light along `direction`.
-    Rgb transmittance_of_pane(const Hit& hit, const Vec3& direction) const {
-        return straight_transmittance(scene.material(hit.material), -dot(direction, hit.normal));
-    }
-
     /// As RayCaster::offset_m, for a position relative to the centre.
     double offset(const Vec3& relative, double size_m) const {
         return lift_rule.relative_offset_m(relative, size_m);
@@ -524,59 +518,6 @@ bool RayCaster::has_panes() const { return implementation_->has_panes; }
 bool RayCaster::occluded(const Vec3& from, const Vec3& to) const {
     ++traced_by_this_thread;
     return implementation_->occluded(from - center(), to - center());
-}
-
-Rgb RayCaster::transmittance(const Segment& segment) const {
-    if (!occluded(segment.from, segment.to)) return Rgb::grey(1);
-    return implementation_->has_panes ? transmittance_of_panes(segment) : Rgb{};
-}
-
-void RayCaster::transmittances(std::span<const Segment> segments, Coherence coherence,
-                               std::span<Rgb> transmittances) const {
-    for (std::size_t first = 0; first < segments.size(); first += kPacketWidth) {
-        const std::size_t count = std::min<std::size_t>(kPacketWidth, segments.size() - first);
-        RayPacket packet;
-        LaneMask lanes{};
-        for (std::size_t i = 0; i < count; ++i) {
-            const Segment& segment = segments[first + i];
-            packet.set(i, segment.from - center(), segment.to - segment.from, 1);
-            lanes[i] = -1;
-        }
-        occlude(packet, lanes, coherence);
-        for (std::size_t i = 0; i < count; ++i) {
-            Rgb& left = transmittances[first + i] = Rgb::grey(packet.end[i] < 0 ? 0 : 1);
-            if (packet.end[i] < 0 && implementation_->has_panes) {
-                left = transmittance_of_panes(segments[first + i]);
-            }
-        }
-    }
-}
-
-Rgb RayCaster::transmittance_of_panes(const Segment& segment) const {
-    Rgb left = Rgb::grey(1);
-    const Vec3 direction = normalized(segment.to - segment.from);
-    Vec3 from = segment.from;
-    while (occluded(from, segment.to)) {
-        const auto hit = closest(from, direction);
-        if (!hit || !implementation_->is_pane(*hit)) return {};
-        left *= implementation_->transmittance_of_pane(*hit, direction);
-        from = hit->lifted_behind();
-    }
-    return left;
-}
-
-RayCaster::FirstHit RayCaster::seen(const Ray& ray) const {
-    FirstHit seen;
-    Vec3 origin = ray.origin;
-    for (;;) {
-        const auto hit = closest(origin, ray.direction);
-        if (!hit || !implementation_->is_pane(*hit)) {
-            seen.hit = hit;
-            return seen;
-        }
-        seen.transmittance *= implementation_->transmittance_of_pane(*hit, ray.direction);
-        origin = hit->lifted_behind();
-    }
 }
 
 void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence coherence) const {
