@@ -1,7 +1,6 @@
 // Large meshes that several objects have are stored once.
 #include <gtest/gtest.h>
 
-#include <filesystem>
 #include <set>
 
 #include "gltf_text.h"

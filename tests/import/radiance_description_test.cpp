@@ -1,7 +1,5 @@
 // The language of Radiance's scene files: words, commands, transforms. Expected numbers of commands are those
 // of Radiance's own programs (xform, genbox, genrev of pyradiance 1.3).
-#include <fstream>
-
 #include "io/import/radiance/calculation.h"
 #include "radiance_text.h"
 #include "support/test_folder.h"

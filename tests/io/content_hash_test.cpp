@@ -1,9 +1,6 @@
 // What a solution's scene may change in, and what not.
 #include <gtest/gtest.h>
 
-#include <filesystem>
-
-#include "io/text/table.h"
 #include "io/text/text.h"
 #include "support/test_folder.h"
 

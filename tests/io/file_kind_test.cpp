@@ -2,10 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "stilb/error.h"
-#include "support/picture_pixels.h"
 #include "support/test_folder.h"
 
 namespace stilb::io {

@@ -1,8 +1,6 @@
 #include "io/mesh/harmonics_file.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <cmath>
 #include <string>

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 
 #include "io/mesh_checks.h"
 #include "support/test_folder.h"

@@ -1,7 +1,5 @@
 #include "io/scene/scene_file.h"
 
-#include <fstream>
-
 #include "io/scene_text.h"
 #include "support/test_folder.h"
 

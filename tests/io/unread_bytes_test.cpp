@@ -10,7 +10,6 @@
 
 #include "io/import/obj/obj_scene.h"
 #include "io/mesh_checks.h"
-#include "io/text/table.h"
 #include "io/text/text.h"
 #include "support/test_folder.h"
 

@@ -2,14 +2,11 @@
 
 #include <gtest/gtest.h>
 
-#include <fstream>
-
 #include "io/import/rtrace.h"
 #include "io/import/view_file.h"
 #include "io/mesh/mesh_file.h"
 #include "io/scene/scene_file.h"
 #include "stilb/error.h"
-#include "support/picture_pixels.h"
 #include "support/test_folder.h"
 
 namespace stilb::io {

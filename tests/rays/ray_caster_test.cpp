@@ -1,9 +1,13 @@
 #include "rays/ray_caster.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <optional>
+#include <thread>
 #include <tuple>
+#include <vector>
 
 #include "geometry/harmonics/surface.h"
 #include "geometry/transform.h"
@@ -380,6 +384,42 @@ TEST(RayCaster, RefusesWhatIsTooFarForSinglePrecision) {
     scene.objects.pop_back();
     add_point_light(scene, {0, -1e18, 0}, Rgb::grey(1));
     EXPECT_NE(message_of(scene).find("light \"0\" reaches"), std::string::npos);
+}
+
+/// Boxes of 1 m in a row: packets meet few of them without Embree, and many by it.
+Scene boxes(int count) {
+    Scene scene;
+    scene.materials.push_back({"wall", Diffuse{Rgb::grey(0.5)}});
+    for (int i = 0; i < count; ++i) {
+        const Vec3 corner{2.0 * i, 0, 0};
+        scene.objects.push_back(
+            {fmt::format("box {}", i), Box{corner, corner + Vec3{1, 1, 1}}, {MaterialId{0}}});
+    }
+    return scene;
+}
+
+TEST(TracedRays, AreCountedOneByOneAndByLanes) {
+    for (const int count : {1, 20}) {
+        const Scene scene = boxes(count);
+        const RayCaster caster(scene);
+        const auto traced_by = [](const auto& action) {
+            const std::uint64_t before = traced_rays();
+            action();
+            return traced_rays() - before;
+        };
+        const Vec3 above{0.5, 0.5, 3}, below{0.5, 0.5, -1}, down{0, 0, -1};
+        EXPECT_EQ(traced_by([&] { EXPECT_TRUE(caster.closest(above, down)); }), 1u);
+        EXPECT_EQ(traced_by([&] { EXPECT_TRUE(caster.occluded(above, below)); }), 1u);
+        const std::vector<Ray> rays(kPacketWidth + 3, Ray{above, down});
+        std::vector<std::optional<Hit>> hits(rays.size());
+        const std::vector<Segment> segments(3, Segment{above, below});
+        std::vector<Rgb> transmittances(segments.size());
+        for (const Coherence coherence : {Coherence::coherent, Coherence::scattered}) {
+            EXPECT_EQ(traced_by([&] { caster.closest(rays, coherence, hits); }), rays.size());
+            EXPECT_EQ(traced_by([&] { caster.transmittances(segments, coherence, transmittances); }), 3u);
+        }
+        std::thread([] { EXPECT_EQ(traced_rays(), 0u) << "of another thread"; }).join();
+    }
 }
 
 }  // namespace

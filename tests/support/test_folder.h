@@ -1,3 +1,4 @@
+// Folders for tests that write files.
 #pragma once
 
 #include <gtest/gtest.h>
