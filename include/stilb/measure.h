@@ -57,6 +57,9 @@ struct SensorResult {
 /// A run of measure(), render() or solve(): its options, its effort and its success.
 struct Summary {
     std::string method;
+    /// The method that gives the same digits with the same seed and number of samples: what "auto" has chosen
+    /// ("path", "light-paths", "guided"), or the method itself.
+    std::string technique;
     std::uint64_t seed = 0;
     std::uint64_t samples = 0;  ///< as in Options
     int replicates = 0;         ///< independent repetitions that the errors come from

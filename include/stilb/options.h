@@ -12,7 +12,8 @@ namespace stilb::api {
 /// Without error, time and samples, measure() stops at an error of 1 % or after a minute, render() and
 /// solve() after a minute.
 struct Options {
-    /// "auto", "local", "double-local", "path", "ray-bundle", "radiosity" or "particles".
+    /// "auto", "local", "double-local", "path", "ray-bundle", "radiosity" or "particles"; or one of those
+    /// that "auto" chooses from, as Summary::technique names it.
     std::string method = "auto";
     /// Stops when 95 % of each sensor's readings (of a picture's pixels) have a 95 % interval within this
     /// share of their value, such as 0.01.
@@ -22,8 +23,8 @@ struct Options {
     std::string target = "readings";
     /// Stops after this time [s].
     std::optional<double> time_s;
-    /// Stops after this number of samples: light paths; method "path": paths of each reading; pictures:
-    /// samples of each pixel; solutions: steps of the iteration.
+    /// Stops after this number of samples of the technique that the result names: light paths; "path": paths
+    /// of each reading; pictures: samples of each pixel; solutions: steps of the iteration.
     std::optional<std::uint64_t> samples;
     /// The largest number of reflections; without it there is no limit, and no bias.
     std::optional<int> bounces;

@@ -74,6 +74,7 @@ void add_estimates(nb::module_& module) {
 void add_summary(nb::module_& module) {
     nb::class_<Summary>(module, "Summary")
         .def_ro("method", &Summary::method)
+        .def_ro("technique", &Summary::technique)
         .def_ro("seed", &Summary::seed)
         .def_ro("samples", &Summary::samples)
         .def_ro("replicates", &Summary::replicates)

@@ -53,13 +53,19 @@ class Run:
         return self._run.method
 
     @property
+    def technique(self) -> str:
+        """What method "auto" has chosen, such as "light-paths", or the method. With this method, the seed and
+        the number of paths, the same scene gives the same digits again."""
+        return self._run.technique
+
+    @property
     def seed(self) -> int:
         """The seed of the random numbers."""
         return self._run.seed
 
     @property
     def paths(self) -> int:
-        """The number of samples: light paths, paths of each reading, passes of a picture or steps of a solution."""
+        """The number of samples of the technique: light paths, paths of each reading, passes of a picture ..."""
         return self._run.samples
 
     @property

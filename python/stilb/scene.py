@@ -110,7 +110,7 @@ class Scene:
     method    "auto", "path", "local" ... (docs/methods)
     bounces   the largest number of reflections
     patch     longest edge of a patch [m], for methods on patches
-    seed      another seed gives an independent result; the same seed and paths give the same bits as the command line
+    seed      another seed gives an independent result; the same seed, technique and paths give the same bits as the command line
     threads   0: as many as the machine has; the result does not depend on it
     progress  True for a line on stderr, or a function that gets a `stilb.Progress` and may return False to end the run
               with its result so far

@@ -51,6 +51,7 @@ Estimate estimate(const statistics::Estimate& e) { return {e.value, e.standard_e
 
 Summary summary(const RunSummary& run, const std::vector<std::string>& scene_warnings) {
     Summary summary{.method = run.method,
+                    .technique = run.technique,
                     .seed = run.seed,
                     .samples = run.samples,
                     .replicates = run.replicates,
@@ -251,7 +252,7 @@ Solution Solution::load(const std::filesystem::path& path) {
     const io::SceneFile& file = scene.data().file;
     io::require_same_light(stored, file, path.string());
     SolveResult result;
-    result.method = "ray-bundle";
+    result.method = result.technique = "ray-bundle";
     result.seed = stored.seed;
     result.samples = stored.steps;
     result.attained_error = stored.attained_error;

@@ -32,8 +32,11 @@ constexpr std::int64_t kGreatestSeed = std::numeric_limits<std::int64_t>::max();
 void RunFlags::add_to(Command& command) {
     std::string methods = "Method of computation (default: auto)";
     for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
-        methods += fmt::format("\n  {:12} {}", entry.name, entry.summary);
+        if (!entry.is_technique) methods += fmt::format("\n  {:12} {}", entry.name, entry.summary);
     }
+    methods +=
+        "\nA result names the technique that auto has chosen: path, light-paths or guided. Each may be "
+        "given.";
     command.add("--method", method, methods).value_name("NAME");
     command.add("--bounces", bounces, "Limit the number of reflections (default: no limit, no bias)")
         .from_to(0, kMostBounces)
@@ -73,12 +76,12 @@ void RunFlags::add_those_of_all(Command& command) {
             "code 3)")
         .value_name("S");
     command
-        .add(
-            "--paths", paths,
-            "Stop after this many samples, rounded up: light paths (auto, local, double-local) to a multiple "
-            "of 2048 (of more or less with many points), paths per reading (path, and auto with few points) "
-            "or samples (radiosity) to a multiple of 32, steps (ray-bundle) to a multiple of 512 or more, "
-            "particles (particles) to a multiple of 131072; pictures: passes, at least 2")
+        .add("--paths", paths,
+             "Stop after this many samples of the technique that the result names, rounded up: light paths "
+             "(light-paths, local, double-local) to a multiple of 2048 (of more or less with many points), "
+             "paths per reading (path) or samples (guided, radiosity) to a multiple of 32 or 8, steps "
+             "(ray-bundle) to a multiple of 512 or more, particles (particles) to a multiple of 131072; "
+             "pictures: passes, at least 2")
         .from_to(1, kMostPaths)
         .value_name("N");
     command.add("--seed", seed, "Seed of the random numbers: another seed gives an independent result")

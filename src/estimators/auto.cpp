@@ -3,14 +3,18 @@
 // where many readings share them, and where path tracing finds light rarely; a guess pays where still more
 // readings share it, and where it lacks little of the light.
 //
-// Pilots of the methods give their variances. Chosen is the method that takes the least work to the wanted
-// error, with the work of its set-up; a method whose set-up alone takes more than all of the other is not
-// tried, nor one that finds clearly less light than path tracing. All are unbiased, and the choice depends on
-// samples with random keys of their own: the result is unbiased, too.
+// The candidates are tried in the order of the work of their set-ups. Pilots give their variances, and chosen
+// is the one that takes the least work to the wanted error (choose()). One whose set-up alone takes more than
+// all of the best so far is not tried, and one that finds clearly less light than path tracing is not taken.
+// All are unbiased, and the choice depends on samples with random keys of their own: the result is unbiased,
+// too.
 
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
 #include <numbers>
 #include <vector>
 
@@ -31,8 +35,6 @@ namespace {
 constexpr std::size_t kMostReadings = 64;
 /// Pilots of more readings measure as many as these, in runs of neighbours, which share packets of rays.
 constexpr std::size_t kMostInPilots = 128, kRun = 16;
-/// The same for all seeds, so that a scene is measured by one method, and a number of paths means the same.
-constexpr math::RandomKey kPilotKey{0x5ee0f7e57a11ed00};
 enum PilotPurpose : std::uint64_t { kPath, kBalanced, kGuided };
 /// The smallest run by light paths takes about so much work after planning (as Estimator's costs).
 constexpr double kLeastOfLightPaths = 200'000;
@@ -78,12 +80,12 @@ struct Pilot {
     std::vector<std::vector<double>> parts;  ///< the readings of each
 };
 
-Pilot run_pilot(const Estimator& method, std::uint64_t samples, PilotPurpose purpose) {
+Pilot run_pilot(const Estimator& method, std::uint64_t samples, math::RandomKey key) {
     const std::size_t readings = method.known_part().size();
     std::vector<std::vector<double>> parts(kPilots);
     parallel_for(kPilots, [&](std::size_t part) {
         ReadingSums sums(readings);
-        method.run_batch({kPilotKey.derived(purpose).derived(part), 0, samples}, sums);
+        method.run_batch({key.derived(part), 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
             const Rgb mean = method.known_part()[j] + sums.sum[j] * (1 / static_cast<double>(samples));
             parts[part].push_back(mean.luminance());
@@ -132,18 +134,12 @@ double sampling_cost(const Pilot& pilot, std::span<const double> values, const P
     return std::max(pilot.least_cost, pilot.cost * error_of_part * error_of_part / (wanted * wanted));
 }
 
-Pilot run_pilot_of_few(const Estimator& method, std::uint64_t samples, PilotPurpose purpose) {
-    Pilot pilot = run_pilot(method, samples, purpose);
-    pilot.least_cost = kReplicates * static_cast<double>(method.first_check()) * method.cost_per_sample();
-    return pilot;
-}
-
 /// The larger means: what a method finds rarely, its pilot may have missed.
-std::vector<double> values_of(const Pilot& a, const Pilot& b) {
-    std::vector<double> values;
-    std::ranges::transform(a.means, b.means, std::back_inserter(values),
+std::vector<double> larger(std::span<const double> a, std::span<const double> b) {
+    std::vector<double> means;
+    std::ranges::transform(a, b, std::back_inserter(means),
                            [](double x, double y) { return std::max(x, y); });
-    return values;
+    return means;
 }
 
 /// Where path tracing has found nothing, its variance says nothing. Readings have about these values: those
@@ -161,7 +157,8 @@ bool finds_light(const Pilot& pilot, std::span<const double> values, const Probl
 /// with the readings. Then its variance says nothing.
 bool misses_light(const Pilot& pilot, const Pilot& of_path, const Problem& problem) {
     constexpr double standard_errors = 4, rounding = 1e-4;
-    const std::vector<double> values = values_of(pilot, of_path), dark = dark_levels(values, problem);
+    const std::vector<double> values = larger(pilot.means, of_path.means),
+                              dark = dark_levels(values, problem);
     const auto relative_sum = [&](const Pilot& of_method) {
         std::vector<double> sums(of_method.parts.size());
         for (std::size_t i = 0; i < sums.size(); ++i) {
@@ -175,35 +172,6 @@ bool misses_light(const Pilot& pilot, const Pilot& of_path, const Problem& probl
     const statistics::Estimate all = relative_sum(of_path), found = relative_sum(pilot);
     return all.value - found.value > rounding * all.value &&
            statistics::z_score(all, found) > standard_errors;
-}
-
-std::unique_ptr<Estimator> make_for_few(Problem problem) {
-    if (has_light_for_light_paths_only(problem.scene)) return make_balanced(problem);
-    problem.preparation_key = kPilotKey;
-    std::unique_ptr<Estimator> path = make_path(problem);
-    const double path_cost = path->cost_per_sample();
-    const auto path_pilot = [&](double cost, double least_paths) {
-        return run_pilot_of_few(*path, static_cast<std::uint64_t>(std::max(least_paths, cost / path_cost)),
-                                kPath);
-    };
-    const auto is_path_cheaper = [&](const Pilot& of_path, double work) {
-        return finds_light(of_path, of_path.means, problem) &&
-               sampling_cost(of_path, of_path.means, problem) < work + kLeastOfLightPaths;
-    };
-    const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
-    const double worth_planning = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1);
-    if (is_path_cheaper(path_pilot(kQuickPilotCost, kLeastQuickPaths), kClearly * worth_planning))
-        return path;
-    const Pilot of_path = path_pilot(kPathPilotCost, kLeastPaths);
-    if (is_path_cheaper(of_path, worth_planning)) return path;
-    std::unique_ptr<Estimator> balanced = make_balanced(problem);
-    const Pilot of_balanced = run_pilot_of_few(*balanced, balanced->batch_granularity(), kBalanced);
-    const std::vector<double> values = values_of(of_path, of_balanced);
-    if (!finds_light(of_path, values, problem)) return balanced;
-    if (misses_light(of_balanced, of_path, problem)) return path;
-    const bool path_pays =
-        sampling_cost(of_path, values, problem) < sampling_cost(of_balanced, values, problem);
-    return path_pays ? std::move(path) : std::move(balanced);
 }
 
 /// Readings of a problem, spread evenly over all of them, which pilots measure.
@@ -223,7 +191,6 @@ struct Survey {
     }
     /// The problem of these readings.
     Problem part_of(Problem whole) const {
-        whole.preparation_key = kPilotKey;
         whole.measurands = measurands;
         whole.weights = weights;
         whole.sensors = sensors;
@@ -245,32 +212,6 @@ struct Survey {
     }
 };
 
-std::unique_ptr<Estimator> make_for_many(const Problem& problem) {
-    const Survey survey(problem);
-    const Problem part = survey.part_of(problem);
-    const bool finds_all_by_rays = !has_light_for_light_paths_only(problem.scene);
-    const std::unique_ptr<Estimator> balanced_part = make_balanced(part);
-    const Pilot of_balanced = run_pilot(*balanced_part, balanced_part->batch_granularity(), kBalanced);
-    const Pilot of_path = run_pilot(*make_path(part), kComparedPaths, kPath);
-    const bool balanced_misses = misses_light(of_balanced, of_path, part);
-    if (problem.max_reflections != transport::kUnlimited)
-        return balanced_misses && finds_all_by_rays ? make_path(problem) : make_balanced(problem);
-    const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
-    const double guess = kPatchCost * LightGuess::patch_count(problem.scene);
-    if (!balanced_misses && planning + sampling_cost(of_balanced, of_balanced.means, part) < guess)
-        return make_balanced(problem);
-    const EstimatorMaker make_guided_part = with_guess(part);
-    const Pilot of_guided = run_pilot(*make_guided_part(part), kGuidedSamples, kGuided);
-    if (balanced_misses) {
-        const bool guess_misses = misses_light(of_guided, of_path, part);
-        return guess_misses && finds_all_by_rays ? make_path(problem) : make_guided_part(problem);
-    }
-    const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = kSobolGain * sampling_cost(of_guided, values, part) <
-                            planning + sampling_cost(of_balanced, values, part);
-    return guess_pays ? make_guided_part(problem) : make_balanced(problem);
-}
-
 /// Blocks that are spread over a picture.
 std::vector<PixelBlock> pilot_blocks(const std::array<int, 2>& resolution) {
     const auto& [width, height] = resolution;
@@ -289,11 +230,11 @@ std::vector<PixelBlock> pilot_blocks(const std::array<int, 2>& resolution) {
 /// The luminances of the blocks' pixels in each replicate; the cost is that of a pass, in passes without a
 /// guess. `cost`: without that of continued rays.
 Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resolution, double cost,
-                        PilotPurpose purpose) {
+                        math::RandomKey key) {
     const std::vector<PixelBlock> blocks = pilot_blocks(resolution);
     std::vector<std::unique_ptr<const PicturePass>> passes(kPilotReplicates * kPilotPasses);
     parallel_for(passes.size(), [&](std::size_t i) {
-        passes[i] = method.start({kPilotKey.derived(purpose).derived(i / kPilotPasses), i % kPilotPasses});
+        passes[i] = method.start({key.derived(i / kPilotPasses), i % kPilotPasses});
     });
     std::vector<std::array<std::vector<double>, kPilotReplicates>> luminances(blocks.size());
     std::atomic<std::uint64_t> continued = 0;
@@ -319,7 +260,7 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
 }
 
 /// The work to a mean squared error of all pixels, times that error: single bright dots disturb a picture.
-double picture_cost(const Pilot& pilot, std::span<const double> values) {
+double picture_cost(const Pilot& pilot, std::span<const double> values, const Problem&) {
     const double dark = statistics::dark_level(values);
     double squares = 0;
     for (std::size_t j = 0; j < values.size(); ++j) {
@@ -336,25 +277,176 @@ bool has_gloss(const Scene& scene) {
     });
 }
 
-std::unique_ptr<Estimator> make_for_picture(const Problem& problem) {
-    std::unique_ptr<Estimator> balanced = make_balanced(problem);
-    if (problem.max_reflections != transport::kUnlimited) return balanced;
-    std::unique_ptr<Estimator> guided = make_guided(problem);
-    const auto& resolution = problem.camera->resolution;
-    const Pilot of_balanced = run_picture_pilot(*balanced, resolution, 1, kBalanced);
-    const double pass_cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
-    const Pilot of_guided = run_picture_pilot(*guided, resolution, pass_cost, kGuided);
-    const std::vector<double> values = values_of(of_balanced, of_guided);
-    const bool guess_pays = picture_cost(of_guided, values) < picture_cost(of_balanced, values);
-    return guess_pays ? std::move(guided) : std::move(balanced);
+/// A technique, with the work of trying it (as Estimator's costs).
+struct Candidate {
+    struct Trial {
+        std::function<Pilot(const Estimator&)> pilot;
+        /// The next technique is not tried where this share of its set-up takes more than all of the best
+        /// one.
+        double enough = 1;
+    };
+
+    EstimatorMaker make;
+    std::vector<Trial> trials;
+    double set_up_cost = 0;  ///< before the trials
+    double least_cost = 0;   ///< of the smallest run
+    double cost_left = 0;    ///< after the trials, before samples count
+    double factor = 1;       ///< of the sampling that a pilot promises
+    /// Path tracing, the first: others that find clearly less light miss some. Its own variance says nothing
+    /// where its pilot has found no light.
+    bool is_path = false;
+};
+/// The work that is left by what is chosen only where all others miss light.
+constexpr double kLastResort = 1e300;
+
+struct Question {
+    const Problem& problem;
+    const Problem& part;  ///< of it, for the trials; or all of it
+    double (*cost)(const Pilot&, std::span<const double> values, const Problem& part);
+};
+
+struct Tried {
+    const Candidate* candidate;
+    std::unique_ptr<Estimator> estimator;  ///< of the part
+    Pilot pilot;
+};
+
+/// The work by each; infinite where it misses light.
+std::vector<double> costs_of(std::span<const Tried> tried, const Question& question) {
+    constexpr double infinite = std::numeric_limits<double>::infinity();
+    std::vector<double> values(tried[0].pilot.means.size());
+    for (const Tried& one : tried) {
+        if (one.candidate->cost_left < kLastResort) values = larger(values, one.pilot.means);
+    }
+    std::vector<double> costs;
+    for (const Tried& one : tried) {
+        const Candidate& candidate = *one.candidate;
+        const bool misses = candidate.is_path ? !finds_light(one.pilot, values, question.part)
+                                              : tried[0].candidate->is_path &&
+                                                    misses_light(one.pilot, tried[0].pilot, question.part);
+        const double sampling = candidate.factor * question.cost(one.pilot, values, question.part);
+        costs.push_back(misses ? infinite : candidate.cost_left + sampling);
+    }
+    return costs;
+}
+
+/// The candidate, in the order of the work of their set-ups, that takes the least work in all.
+std::unique_ptr<Estimator> choose(std::span<const Candidate> candidates, const Question& question) {
+    if (candidates.size() == 1) return candidates[0].make(question.problem);
+    std::vector<Tried> tried;
+    const auto is_enough = [&](const Candidate& candidate, double share) {
+        if (&candidate == &candidates.back()) return false;
+        const Candidate& next = *(&candidate + 1);
+        return std::ranges::min(costs_of(tried, question)) < share * next.set_up_cost + next.least_cost;
+    };
+    std::ranges::any_of(candidates, [&](const Candidate& candidate) {
+        tried.push_back({&candidate, candidate.make(question.part), {}});
+        return std::ranges::any_of(candidate.trials, [&](const Candidate::Trial& trial) {
+            tried.back().pilot = trial.pilot(*tried.back().estimator);
+            return is_enough(candidate, trial.enough);
+        });
+    });
+    const std::vector<double> costs = costs_of(tried, question);
+    // Where all miss light, the last one.
+    std::size_t best = 0;
+    for (std::size_t i = 1; i < costs.size(); ++i) {
+        if (costs[i] <= costs[best]) best = i;
+    }
+    if (&question.part == &question.problem) return std::move(tried[best].estimator);
+    return tried[best].candidate->make(question.problem);
+}
+
+Candidate::Trial trial_of_few(math::RandomKey key, const auto& samples_of, double enough = 1) {
+    return {[=](const Estimator& method) {
+                Pilot pilot = run_pilot(method, samples_of(method), key);
+                pilot.least_cost =
+                    kReplicates * static_cast<double>(method.first_check()) * method.cost_per_sample();
+                return pilot;
+            },
+            enough};
+}
+
+std::unique_ptr<Estimator> choose_for_few(const Problem& problem) {
+    const math::RandomKey key = problem.preparation_key;
+    const auto paths = [](double cost, double least) {
+        return [=](const Estimator& path) {
+            return static_cast<std::uint64_t>(std::max(least, cost / path.cost_per_sample()));
+        };
+    };
+    const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
+    std::vector<Candidate> candidates;
+    if (!has_light_for_light_paths_only(problem.scene)) {
+        candidates.push_back(
+            {.make = make_path,
+             .trials = {trial_of_few(key.derived(kPath), paths(kQuickPilotCost, kLeastQuickPaths), kClearly),
+                        trial_of_few(key.derived(kPath), paths(kPathPilotCost, kLeastPaths))},
+             .is_path = true});
+    }
+    candidates.push_back(
+        {.make = make_balanced,
+         .trials = {trial_of_few(key.derived(kBalanced),
+                                 [](const Estimator& method) { return method.batch_granularity(); })},
+         .set_up_cost = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1),
+         .least_cost = kLeastOfLightPaths});
+    return choose(candidates, {problem, problem, sampling_cost});
+}
+
+/// Makes the guess once, of the first problem.
+EstimatorMaker guided_maker() {
+    return [made = std::make_shared<EstimatorMaker>()](const Problem& problem) {
+        if (!*made) *made = with_guess(problem);
+        return (*made)(problem);
+    };
+}
+
+std::unique_ptr<Estimator> choose_for_many(const Problem& problem) {
+    const Survey survey(problem);
+    const Problem part = survey.part_of(problem);
+    const math::RandomKey key = problem.preparation_key;
+    const auto trial = [](math::RandomKey own_key, std::uint64_t samples) {
+        return Candidate::Trial{[=](const Estimator& method) { return run_pilot(method, samples, own_key); }};
+    };
+    const bool finds_all_by_rays = !has_light_for_light_paths_only(problem.scene);
+    std::vector<Candidate> candidates{
+        {.make = make_path,
+         .trials = {trial(key.derived(kPath), kComparedPaths)},
+         .cost_left = finds_all_by_rays ? kLastResort : std::numeric_limits<double>::infinity(),
+         .is_path = true},
+        {.make = make_balanced,
+         .trials = {{[=](const Estimator& method) {
+             return run_pilot(method, method.batch_granularity(), key.derived(kBalanced));
+         }}},
+         .cost_left = kPlanningRayCost * planning_rays(problem.measurands.size())}};
+    if (problem.max_reflections == transport::kUnlimited) {
+        candidates.push_back({.make = guided_maker(),
+                              .trials = {trial(key.derived(kGuided), kGuidedSamples)},
+                              .set_up_cost = kPatchCost * LightGuess::patch_count(problem.scene),
+                              .factor = kSobolGain});
+    }
+    return choose(candidates, {problem, part, sampling_cost});
+}
+
+std::unique_ptr<Estimator> choose_for_picture(const Problem& problem) {
+    const math::RandomKey key = problem.preparation_key;
+    const auto trial = [&](math::RandomKey own_key, double cost_of_pass) {
+        return Candidate::Trial{[=, resolution = problem.camera->resolution](const Estimator& method) {
+            return run_picture_pilot(method, resolution, cost_of_pass, own_key);
+        }};
+    };
+    std::vector<Candidate> candidates{{.make = make_balanced, .trials = {trial(key.derived(kBalanced), 1)}}};
+    if (problem.max_reflections == transport::kUnlimited) {
+        const double cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
+        candidates.push_back({.make = make_guided, .trials = {trial(key.derived(kGuided), cost)}});
+    }
+    return choose(candidates, {problem, problem, picture_cost});
 }
 
 }  // namespace
 
 std::unique_ptr<Estimator> make_auto(const Problem& problem) {
-    if (problem.camera) return make_for_picture(problem);
+    if (problem.camera) return choose_for_picture(problem);
     if (problem.measurands.empty()) return make_balanced(problem);
-    return problem.measurands.size() <= kMostReadings ? make_for_few(problem) : make_for_many(problem);
+    return problem.measurands.size() <= kMostReadings ? choose_for_few(problem) : choose_for_many(problem);
 }
 
 }  // namespace stilb::estimators

@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/monitor.h"
@@ -28,8 +29,9 @@ struct Problem {
     const Scene& scene;
     const rays::RayCaster& caster;
     int max_reflections;
-    /// For decisions before sampling starts; independent of the keys of batches and passes.
-    math::RandomKey preparation_key;
+    /// For decisions before sampling starts; independent of the keys of batches and passes. The same for all
+    /// seeds of a run: a technique that is given back then decides as `auto` did that chose it.
+    math::RandomKey preparation_key{0x5ee0f7e57a11ed00};
     std::span<const Measurand> measurands = {};
     /// The weight of each measurand's relative variance. Empty: all equal.
     std::span<const double> weights = {};
@@ -167,6 +169,10 @@ class PicturePass {
 class Estimator {
   public:
     virtual ~Estimator() = default;
+
+    /// The name in estimator_list() that makes the same estimator of the same problem: that of the method, or
+    /// of the technique that it has chosen.
+    virtual std::string_view technique() const = 0;
 
     /// Adds a batch of the problem's measurands. Batches may run in parallel on different sums. Throws
     /// Cancelled, with unfinished sums, soon after the monitor ends the run.

@@ -83,8 +83,8 @@ Html warnings(const Report& report) {
 }
 
 void add_run(const RunSummary& run, std::string_view name, std::string_view samples, Facts& facts) {
-    facts.add(name, text(fmt::format("method {}, seed {}, {} {}, {} replicates, ", run.method, run.seed,
-                                     run.samples, samples, run.replicates)) +
+    facts.add(name, text(fmt::format("method {}, seed {}, {} {}, {} replicates, ", io::method_text(run),
+                                     run.seed, run.samples, samples, run.replicates)) +
                         varying(fmt::format("{:.1f} s", run.elapsed_s)) +
                         text(fmt::format("; {}", end_of(run.stop_reason))));
     if (run.patches) facts.add("Patches", varying(io::patch_text(*run.patches)));
@@ -107,7 +107,9 @@ Html origin(const Report& report) {
     facts.add("Command", element("code", report.command));
     if (report.readings) {
         const RunResult& run = *report.readings;
-        add_run(run, "Readings", estimators::find_estimator(run.method).samples, facts);
+        const estimators::EstimatorEntry& technique = estimators::find_estimator(run.technique);
+        add_run(run, "Readings", technique.samples, facts);
+        facts.add("A sample", text(std::string(technique.sample)));
         facts.add("Rays", text(fmt::format("{}", run.rays)));
         facts.add("Reflections",
                   text(report.options.bounces ? fmt::format("{} at most", *report.options.bounces)

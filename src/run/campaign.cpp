@@ -50,7 +50,7 @@ ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOption
     if (are_large_grids) {
         plan.replicates = kFewReplicates;
         plan.pools_errors = true;
-        plan.has_paces = options.error && options.target == Target::readings;
+        plan.has_paces = options.target == Target::readings;
     }
     if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
     return plan;

@@ -28,7 +28,7 @@ constexpr double kConfidence = 0.95;
 /// Samples that a run makes for the sake of sharp light before its first error estimate: some seconds of
 /// work.
 constexpr std::uint64_t kMostAwaited = 1 << 20;
-enum ReadingPurpose : std::uint64_t { kReadingPreparation, kReadingReplicates, kReadingGlare };
+enum ReadingPurpose : std::uint64_t { kReadingReplicates = 1, kReadingGlare };
 
 void require_measurable(std::span<const Sensor> sensors, const estimators::EstimatorEntry& method) {
     for (const Sensor& sensor : sensors) {
@@ -292,7 +292,7 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
         with_units(checks::without_hidden_points(scene, session.caster(), given_sensors));
     const Wanted wanted(sensors);
     std::vector<std::string> of_scene = session.scene_warnings(sensors);
-    estimators::Problem problem = session.problem(math::RandomKey{options.seed}.derived(kReadingPreparation));
+    estimators::Problem problem = session.problem();
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
     problem.sensors = wanted.sensor_of;

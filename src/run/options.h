@@ -25,8 +25,7 @@ struct RunOptions {
     std::optional<double> time_s;
     /// The part of time_s that the caller needs after the run, for example to write files.
     double reserved_s = 0;
-    /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes;
-    /// for solutions steps.
+    /// The total number of samples, as RunSummary's.
     std::optional<std::uint64_t> paths;
     /// The largest number of reflections; unlimited where absent (Russian roulette then ends paths without
     /// bias).

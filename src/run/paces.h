@@ -1,5 +1,6 @@
-// Work where it is needed: in a run that stops by its error, packets of readings that are sure enough take
-// fewer samples than others. Cells of a picture (picture_paces.h) are packets of pixels.
+// Work where it is needed: packets of readings that are sure enough take fewer samples than others. They do
+// so whatever ends the run, so that a number of samples gives what a run by its error gave with as many.
+// Cells of a picture (picture_paces.h) are packets of pixels.
 #pragma once
 
 #include <cstdint>

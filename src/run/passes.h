@@ -20,8 +20,7 @@ namespace stilb::run {
 
 /// Purposes of a picture's random numbers.
 enum PicturePurpose : std::uint64_t {
-    kPicturePreparation,
-    kPictureSamples,
+    kPictureSamples = 1,
     kPictureOffset,
     kPictureComparison,
     kPictureCells

@@ -84,9 +84,9 @@ struct PictureMethod {
     std::uint64_t replicates = kPictureReplicates;
     bool lights_patches = false;
 
-    PicturePlan plan(const RunOptions& options) const {
+    PicturePlan plan() const {
         if (lights_patches) return {replicates, PicturePlan::Errors::own};
-        return {replicates, PicturePlan::Errors::pooled, options.error.has_value()};
+        return {replicates, PicturePlan::Errors::pooled, true};
     }
 };
 
@@ -112,15 +112,14 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
     const std::vector<bool> blind = sensors::blind_pixels(camera);
     RenderResult result;
     session.on_threads([&] {
-        estimators::Problem problem =
-            session.problem(math::RandomKey{options.seed}.derived(kPicturePreparation));
+        estimators::Problem problem = session.problem();
         problem.camera = camera;
         const auto estimator = method.make(problem);
         add_geometry(camera, session.caster(), result);  // before the samples, so that it counts in the time
         std::optional<PictureComparison> comparison;
         if (method.lights_patches)
             comparison.emplace(problem, blind, math::RandomKey{options.seed}.derived(kPictureComparison));
-        Passes passes(*estimator, camera.resolution, blind, method.plan(options), options.seed, sink,
+        Passes passes(*estimator, camera.resolution, blind, method.plan(), options.seed, sink,
                       session.monitor(), comparison ? &*comparison : nullptr);
         session.run(passes, result);
         session.describe(*estimator, result);

@@ -39,10 +39,12 @@ struct LevelOfDetail {
 /// The common part of all results.
 struct RunSummary {
     std::string method;
+    /// The method that gives the same result with the same seed and number of samples: what `auto` has
+    /// chosen, or the method itself.
+    std::string technique;
     std::uint64_t seed = 0;
-    /// The total number of samples: light paths; for method `path` paths per reading; for pictures passes
-    /// (samples of a pixel; by error, some pixels take fewer); for solutions steps of all walks, without the
-    /// first ones of each.
+    /// The total number of samples of the technique (estimator_list()); for pictures passes (samples of a
+    /// pixel; some pixels take fewer); for solutions steps of all walks, without the first ones of each.
     std::uint64_t samples = 0;
     /// Independent repetitions that the errors come from; fewer than asked for where the run ended before all
     /// of them had begun. 1 where there are no errors: after a single pass.

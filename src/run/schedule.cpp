@@ -139,11 +139,10 @@ std::vector<std::string> Session::scene_warnings(std::span<const Sensor> sensors
     return checks::scene_warnings(scene_, caster_, checks::Enclosures(scene_, caster_), sensors);
 }
 
-estimators::Problem Session::problem(math::RandomKey preparation_key) const {
+estimators::Problem Session::problem() const {
     return {.scene = scene_,
             .caster = caster_,
             .max_reflections = options_.bounces.value_or(transport::kUnlimited),
-            .preparation_key = preparation_key,
             .patches = options_.patches,
             .monitor = monitor_};
 }
@@ -159,6 +158,7 @@ void Session::run(Work& work, RunSummary& summary) {
 }
 
 void Session::describe(const estimators::Estimator& estimator, RunSummary& summary) const {
+    summary.technique = estimator.technique();
     summary.patches = estimator.patch_report();
     summary.warnings = estimator.warnings();
 }

@@ -116,7 +116,7 @@ class Session {
     /// time limit.
     std::vector<std::string> scene_warnings(std::span<const Sensor> sensors) const;
     /// The problem without measurands and camera.
-    estimators::Problem problem(math::RandomKey preparation_key) const;
+    estimators::Problem problem() const;
 
     /// Calls `action` with the user's number of threads for its parallel loops.
     void on_threads(const std::function<void()>& action) { pool_.execute(action); }

@@ -208,6 +208,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     std::vector<std::string> of_scene = session.scene_warnings({});
     if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;
+    result.technique = kMethod;
     session.on_threads([&] {
         const Monitor& monitor = session.monitor();
         const estimators::PatchTransport transport(scene, session.caster(), options.patches, monitor);

@@ -113,7 +113,7 @@ TEST(Thresholds, OfNumbersOfReadings) {
         expect_same(measured.by(make_guided, 32, count), expected, 3 * counts.size(), "guided, " + readings);
         if (count > 130) continue;
         const std::unique_ptr<Estimator> chosen = make_auto(measured.problem());
-        const std::uint64_t samples = chosen->batch_granularity() == 1 ? 512 : 2048;
+        const std::uint64_t samples = chosen->technique() == "light-paths" ? 2048 : 512;
         expect_same(estimates_of(*chosen, count, math::RandomKey{count}, samples), expected,
                     3 * counts.size(), "auto, " + readings);
     }

@@ -38,6 +38,7 @@ inline Picture sample_picture(int width = 40, int height = 20) {
                       "0123abcd",
                       "main",
                       "auto",
+                      "light-paths",
                       "stilb render office.toml -o a.exr",
                       "9.8.7",
                       17,

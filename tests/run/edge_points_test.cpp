@@ -80,7 +80,7 @@ Sensor sights() {
 /// infinite variance next to bright walls, and the form factors of method radiosity an error of per cents
 /// between patches that touch.
 std::vector<std::string> methods() {
-    std::vector<std::string> names{"light-paths", "guided"};
+    std::vector<std::string> names;
     for (const estimators::EstimatorEntry& method : estimators::estimator_list()) {
         if (method.name != "local" && method.name != "double-local" && method.name != "radiosity")
             names.emplace_back(method.name);

@@ -27,6 +27,7 @@ class MadeUpPicture final : public estimators::Estimator {
   public:
     explicit MadeUpPicture(Luminance luminance) : luminance_(std::move(luminance)) {}
 
+    std::string_view technique() const override { return "made up"; }
     void run_batch(const estimators::Batch&, estimators::ReadingSums&) const override {}
     std::span<const Rgb> known_part() const override { return {}; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return {}; }

@@ -9,7 +9,7 @@ import subprocess
 import time
 import unittest
 
-from command_line import BOX, CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run
+from command_line import BOX, CAMERA, MOST_SECONDS, PROGRAM, ROOM, ROOT, CommandLineTest, run, wait_for_error
 
 LAMP = """
 [lights.lamp]
@@ -174,14 +174,15 @@ class InterruptionTest(FilesTest):
                                 **options)
 
     def endless_solve(self, output):
-        return ["solve", self.scene, "-o", output, "--patch", 1, "--time", MOST_SECONDS - 10, "--error", "0.00001%"]
+        return ["solve", self.scene, "-o", output, "--patch", 1, "--time", MOST_SECONDS - 10, "--progress"]
 
     def test_results_survive_the_end_of_the_session(self):
-        measure = self.start("measure", self.scene, "--json", "--error", "0.00001%", "--time", MOST_SECONDS - 10)
+        measure = self.start("measure", self.scene, "--json", "--error", "0.00001%", "--time", MOST_SECONDS - 10,
+                             "--progress")
         solution = self.folder / "room.solution"
         solve = self.start(*self.endless_solve(solution))
-        time.sleep(1)
         for process in (measure, solve):
+            wait_for_error(process)
             process.send_signal(signal.SIGHUP)
             process.send_signal(signal.SIGHUP)  # the shell and the system send one each
             output, errors = process.communicate(timeout=MOST_SECONDS)
@@ -196,7 +197,9 @@ class InterruptionTest(FilesTest):
         process = subprocess.Popen([PROGRAM, *map(str, self.endless_solve(solution))], stdin=terminal, stdout=terminal,
                                    stderr=terminal, start_new_session=True)
         os.close(terminal)
-        time.sleep(1)
+        shown = b""
+        while b" error " not in shown:  # until there is a result
+            shown += os.read(keyboard, 4096)
         os.close(keyboard)  # from now on, writing to the terminal fails
         process.send_signal(signal.SIGHUP)
         process.wait(timeout=MOST_SECONDS)

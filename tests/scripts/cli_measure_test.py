@@ -8,7 +8,7 @@ import subprocess
 import time
 import unittest
 
-from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, CommandLineTest, run
+from command_line import CAMERA, MOST_SECONDS, PROGRAM, ROOM, CommandLineTest, run, wait_for_error
 
 
 class MeasureTest(CommandLineTest):
@@ -82,9 +82,9 @@ class MeasureTest(CommandLineTest):
 
     def test_interrupted(self):
         for name in (signal.SIGINT, signal.SIGTERM):
-            process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--error", "0.00001%", "--time", "50"],
-                                       stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
-            time.sleep(0.5)
+            process = subprocess.Popen([PROGRAM, "measure", self.scene, "--json", "--error", "0.00001%", "--time", "50",
+                                        "--progress"], stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
+            wait_for_error(process)
             process.send_signal(name)
             output, errors = process.communicate(timeout=MOST_SECONDS)
             self.assertEqual(process.returncode, 3, errors)

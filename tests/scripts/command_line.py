@@ -86,6 +86,14 @@ def run(*arguments, **options):
     return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, timeout=MOST_SECONDS, **options)
 
 
+def wait_for_error(process):
+    """Reads the messages of a run with --progress until it has estimated its error: from then on it has a result."""
+    for line in process.stderr:
+        if " error " in line:
+            return
+    raise AssertionError("the run ended before its first error estimate")
+
+
 class CommandLineTest(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()

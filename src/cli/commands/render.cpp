@@ -111,8 +111,8 @@ void print_summary(const RenderResult& result, const Sensor& sensor, const std::
         fmt::print(stream, "95 % of the pixels have a 95 % interval within {} of their value\n",
                    io::percent(result.attained_error));
     }
-    fmt::print(stream, "{}, {} in {:.1f} s: {}\n", result.method, passes_text(result), result.elapsed_s,
-               io::ending(result.stop_reason, "passes"));
+    fmt::print(stream, "{}, {} in {:.1f} s: {}\n", io::method_text(result), passes_text(result),
+               result.elapsed_s, io::ending(result.stop_reason, "passes"));
     fmt::print(stream, "{}{}", shortfall_text(result, output), maintenance_line(result));
     fmt::print(stream, "{}", io::detail_text(result.levels_of_detail));
     if (result.patches) fmt::print(stream, "{}", io::patch_text(*result.patches));

@@ -174,9 +174,9 @@ std::string to_table(const RunResult& result) {
 }
 
 std::string end_of_table(const RunResult& result) {
-    const std::string_view samples = estimators::find_estimator(result.method).samples;
-    std::string text = fmt::format("{}, {} {} in {:.2f} s: {}\n", result.method, result.samples, samples,
-                                   result.elapsed_s, ending_with_error(result, samples));
+    const std::string_view samples = estimators::find_estimator(result.technique).samples;
+    std::string text = fmt::format("{}, {} {} in {:.2f} s: {}\n", io::method_text(result), result.samples,
+                                   samples, result.elapsed_s, ending_with_error(result, samples));
     if (const std::string verdicts = io::verdicts_text(result); !verdicts.empty())
         text += fmt::format("Requirements: {}\n", verdicts);
     if (const std::string power = io::installed_power_text(result); !power.empty())

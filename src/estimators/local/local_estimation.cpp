@@ -392,13 +392,18 @@ struct LocalScene {
 
 class LocalEstimation final : public Estimator {
   public:
-    LocalEstimation(const Problem& problem, std::shared_ptr<const LocalScene> scene)
-        : scene_(std::move(scene)), readings_(scene_->transport, problem, scene_->guide.get()) {
+    /// `technique`: of estimation without a guess.
+    LocalEstimation(const Problem& problem, std::shared_ptr<const LocalScene> scene,
+                    std::string_view technique)
+        : scene_(std::move(scene)),
+          technique_(scene_->guide ? "guided" : technique),
+          readings_(scene_->transport, problem, scene_->guide.get()) {
         if (problem.camera)
             picture_ = scene_->guide ? make_guided_picture(scene_->transport, problem, *scene_->guide)
                                      : make_local_picture(scene_->transport, problem);
     }
 
+    std::string_view technique() const override { return technique_; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
@@ -416,24 +421,35 @@ class LocalEstimation final : public Estimator {
 
   private:
     std::shared_ptr<const LocalScene> scene_;
+    std::string_view technique_;
     LocalReadings readings_;
     std::unique_ptr<const LocalPicture> picture_;
 };
 
-std::unique_ptr<Estimator> make(const Problem& problem, Split split) {
-    return std::make_unique<LocalEstimation>(problem, std::make_shared<const LocalScene>(problem, split));
+constexpr std::string_view kLightPaths = "light-paths";
+
+std::unique_ptr<Estimator> make(const Problem& problem, Split split, std::string_view technique) {
+    return std::make_unique<LocalEstimation>(problem, std::make_shared<const LocalScene>(problem, split),
+                                             technique);
 }
 
 }  // namespace
 
-std::unique_ptr<Estimator> make_local(const Problem& problem) { return make(problem, Split::none); }
+std::unique_ptr<Estimator> make_local(const Problem& problem) { return make(problem, Split::none, "local"); }
 
-std::unique_ptr<Estimator> make_balanced(const Problem& problem) { return make(problem, Split::balanced); }
+std::unique_ptr<Estimator> make_double_local(const Problem& problem) {
+    return make(problem, Split::none, "double-local");
+}
+
+std::unique_ptr<Estimator> make_balanced(const Problem& problem) {
+    return make(problem, Split::balanced, kLightPaths);
+}
 
 EstimatorMaker with_guess(const Problem& problem) {
     const auto scene = std::make_shared<LocalScene>(problem, Split::balanced);
     scene->make_guide(problem);
-    return [scene](const Problem& part) { return std::make_unique<LocalEstimation>(part, scene); };
+    return
+        [scene](const Problem& part) { return std::make_unique<LocalEstimation>(part, scene, kLightPaths); };
 }
 
 std::unique_ptr<Estimator> make_guided(const Problem& problem) { return with_guess(problem)(problem); }

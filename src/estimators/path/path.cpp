@@ -127,6 +127,7 @@ class PathEstimator final : public Estimator {
         if (problem.camera) tracing_.emplace(problem, paths_.lights);
     }
 
+    std::string_view technique() const override { return "path"; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         for_parts(points_.size() * batch.count, [&](std::uint64_t first, std::uint64_t end) {
             sample_illuminances(batch, first, end, sums);

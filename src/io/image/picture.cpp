@@ -124,6 +124,7 @@ std::vector<HeaderField> header_fields(const Picture& picture) {
     add("sceneHash", origin.scene_hash);
     add("sensor", origin.sensor);
     add("method", origin.method);
+    add("technique", origin.technique);
     if (origin.seed) add("seed", fmt::to_string(*origin.seed));
     if (origin.paths > 0) add("paths", fmt::to_string(origin.paths));
     if (origin.replicates > 0) add("replicates", fmt::to_string(origin.replicates));
@@ -146,6 +147,7 @@ void read_header_field(Picture& picture, std::string_view name, std::string_view
     if (is("sceneHash")) origin.scene_hash = text;
     if (is("sensor")) origin.sensor = text;
     if (is("method")) origin.method = text;
+    if (is("technique")) origin.technique = text;
     if (is("seed")) origin.seed = whole_number(text);
     if (is("paths")) origin.paths = whole_number(text);
     if (is("replicates")) origin.replicates = static_cast<int>(whole_number(text, 1'000'000));
@@ -169,6 +171,7 @@ Picture picture_of(const Pixels& pixels, const Camera& camera, const PictureOrig
 }
 
 Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrigin origin) {
+    origin.technique = result.technique;
     origin.paths = result.samples;
     origin.replicates = result.replicates;
     origin.elapsed_s = result.elapsed_s;

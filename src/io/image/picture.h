@@ -21,8 +21,9 @@ struct PictureOrigin {
     std::string scene_hash;  ///< of the scene file and all files that it refers to
     std::string sensor;
     std::string method;
-    std::string command;  ///< the command line
-    std::string version;  ///< of Stilb; empty where another program made the picture
+    std::string technique;  ///< as RunSummary's
+    std::string command;    ///< the command line
+    std::string version;    ///< of Stilb; empty where another program made the picture
     std::optional<std::uint64_t> seed;
     std::uint64_t paths = 0;
     int replicates = 0;
@@ -74,8 +75,8 @@ struct HeaderField {
     std::string text;  ///< one line
 };
 
-/// Origin (scene, sceneName, sceneHash, sensor, method, seed, paths, replicates, elapsed_s, patches,
-/// patchSize_m, firstShot, command, software) and view; unknown values are left out.
+/// Origin (scene, sceneName, sceneHash, sensor, method, technique, seed, paths, replicates, elapsed_s,
+/// patches, patchSize_m, firstShot, command, software) and view; unknown values are left out.
 ///
 /// The view is in Radiance's words: VIEW = "-vtv -vp 0 0 1.5 -vd 1 0 0 -vu 0 0 1 -vh 60 -vv 36", with -vtv
 /// for perspective and -vta for an (equiangular) fisheye. Radiance has no equirectangular type (its -vtc is a

@@ -151,6 +151,10 @@ std::string detail_text(std::span<const run::LevelOfDetail> levels) {
     return text;
 }
 
+std::string method_text(const RunSummary& run) {
+    return run.technique == run.method ? run.method : fmt::format("{} ({})", run.method, run.technique);
+}
+
 std::string ending(StopReason reason, std::string_view all) {
     switch (reason) {
         case StopReason::target_reached:

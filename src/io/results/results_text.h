@@ -51,6 +51,9 @@ std::string left_out_text(std::size_t points);
 
 /// `all`: what is complete where a number was requested, such as "passes".
 std::string ending(StopReason reason, std::string_view all);
+
+/// "path", or "auto (light-paths)" where the method has chosen a technique.
+std::string method_text(const RunSummary& run);
 /// "maintenance factor 0.8", or "maintenance factors 0.7 to 0.8", where lamps have different ones.
 std::string maintenance_text(const std::array<double, 2>& factors);
 /// "243 W, without lamps of unknown power: spot, globe", or that it is not known.

@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "estimators/estimator_list.h"
 #include "io/text/table.h"
 #include "sensors/areas/measured_raster.h"
 #include "stilb/error.h"
@@ -20,6 +21,9 @@ namespace stilb::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+/// Of the document, which a reader of results needs to know: higher where keys change their meaning.
+constexpr int kFormat = 1;
 
 /// The surface point whose luminance reading `j` of a sensor is: the end of the line of sight, or the
 /// point of a goniometer. Nothing where the line of sight leaves the scene, or the run did not record it.
@@ -289,10 +293,14 @@ std::vector<std::string> with_readings(std::string_view document, std::span<cons
 
 std::vector<std::string> json_parts(const RunResult& result, const std::string& scene,
                                     ReplicateValues replicates) {
+    const estimators::EstimatorEntry& technique = estimators::find_estimator(result.technique);
     Json json{{"stilb", STILB_VERSION},
+              {"format", kFormat},
               {"scene", scene},
               {"scene_name", result.scene_name},
               {"method", result.method},
+              {"technique", result.technique},
+              {"sample", technique.sample},
               {"seed", result.seed},
               {"elapsed_s", result.elapsed_s},
               {"paths", result.samples},

@@ -152,11 +152,9 @@ EyePicture picture_at(const MeasuringPoint& eye, const PictureSetting& setting) 
     picture.solid_angles_sr.resize(pixels);
     picture.weights_sr.resize(pixels);
     add_weights(eye, camera, setting, picture);
-    const math::RandomKey key = math::RandomKey{setting.seed}.derived(kPicturePreparation);
     const auto estimator = estimators::make_auto({.scene = setting.scene,
                                                   .caster = setting.caster,
                                                   .max_reflections = setting.max_reflections,
-                                                  .preparation_key = key,
                                                   .camera = camera,
                                                   .monitor = setting.monitor});
     const std::vector<bool> blind = sensors::blind_pixels(camera);

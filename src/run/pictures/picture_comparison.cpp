@@ -12,7 +12,7 @@ namespace {
 constexpr std::size_t kPixels = 1024;
 constexpr std::size_t kReplicates = 16;
 constexpr std::uint64_t kPathsOfAReplicate = 16;
-enum Purpose : std::uint64_t { kChoice, kPreparation, kPaths };
+enum Purpose : std::uint64_t { kChoice, kPaths = 2 };
 
 /// Pixels in the camera's field, drawn at random.
 std::vector<std::size_t> chosen_pixels(const std::vector<bool>& blind, math::RandomKey key) {
@@ -25,8 +25,7 @@ std::vector<std::size_t> chosen_pixels(const std::vector<bool>& blind, math::Ran
     return chosen;
 }
 
-estimators::Problem without_patches(estimators::Problem problem, math::RandomKey key) {
-    problem.preparation_key = key;
+estimators::Problem without_patches(estimators::Problem problem) {
     problem.patches = {};
     return problem;
 }
@@ -36,7 +35,7 @@ estimators::Problem without_patches(estimators::Problem problem, math::RandomKey
 PictureComparison::PictureComparison(const estimators::Problem& problem, const std::vector<bool>& blind,
                                      math::RandomKey key)
     : pixels_(chosen_pixels(blind, key.derived(kChoice))), traced_cd_m2_(kReplicates * pixels_.size()) {
-    const auto paths = estimators::make_path(without_patches(problem, key.derived(kPreparation)));
+    const auto paths = estimators::make_path(without_patches(problem));
     const int width = problem.camera->resolution[0];
     Stage stage(problem.monitor, "comparison with path tracing", pixels_.size());
     parallel_for(pixels_.size(), [&](std::size_t i) {

@@ -113,6 +113,7 @@ class Particles final : public Estimator {
         if (problem.camera) tracing_.emplace(problem, transport_.lights);
     }
 
+    std::string_view technique() const override { return kParticles; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         IlluminationMap map(transport_);
         map.add(batch.key.derived(kWalks), batch.first, batch.count);

@@ -157,6 +157,7 @@ class Radiosity final : public Estimator {
             VisibleSides(transport_, tracing_->view.position()).mean_cd_m2(solution_.light.cd_m2(), 1);
     }
 
+    std::string_view technique() const override { return kRadiosity; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
             readings_.add(solution_.light, batch.key, i, sums);

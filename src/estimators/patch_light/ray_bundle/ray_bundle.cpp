@@ -42,6 +42,7 @@ class RayBundle final : public Estimator {
         seen_.emplace(transport_, tracing_->view.position());
     }
 
+    std::string_view technique() const override { return kRayBundle; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         BundleIteration iteration(transport_, batch.key.derived(kWalk).derived(batch.first));
         const auto step = [&] {
