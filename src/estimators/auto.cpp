@@ -31,7 +31,7 @@
 namespace stilb::estimators {
 namespace {
 
-/// With more readings light paths always pay, and with fewer no guess (docs/performance.md).
+/// With more readings light paths always pay, and with fewer no guess (docs/lab-book.md).
 constexpr std::size_t kMostReadings = 64;
 /// Pilots of more readings measure as many as these, in runs of neighbours, which share packets of rays.
 constexpr std::size_t kMostInPilots = 128, kRun = 16;
@@ -54,7 +54,7 @@ constexpr double kPathPilotCost = 1000, kLeastPaths = 4;
 /// worth planning. Over smooth metal it promises 7 times the work of planning, in a diffuse room 0.2 to 1.2.
 constexpr double kQuickPilotCost = 125, kLeastQuickPaths = 2, kClearly = 2. / 3;
 /// With many Sobol' points light paths have less noise than their pilots promise: a grid behind a door took
-/// half the time to 20 % that the guess did, where they promised 0.86 of it (docs/performance.md).
+/// half the time to 20 % that the guess did, where they promised 0.86 of it (docs/lab-book.md).
 constexpr double kSobolGain = 1.25;
 /// Samples of a pilot's part by path tracing with which other methods are compared.
 constexpr std::uint64_t kComparedPaths = 8;
@@ -66,7 +66,7 @@ constexpr std::uint64_t kGuidedSamples = 4;
 constexpr int kPilotBlock = 8, kPilotRows = 4;
 constexpr std::uint64_t kPilotPasses = 4, kPilotReplicates = 2;
 /// The processor time of a pass by the guess over that of one without, where all is diffuse, and with gloss,
-/// whose light comes by light paths in both (docs/performance.md).
+/// whose light comes by light paths in both (docs/lab-book.md).
 constexpr double kGuidedPassCost = 1.3, kGlossyPassCost = 1.5;
 /// This is added for each gathering ray of a pixel that path tracing continues. Few are in rooms, and nearly
 /// all of them beside a ground of kilometres.

@@ -2,7 +2,7 @@
 // patch at a hit follows from the hit's barycentric coordinates.
 //
 // Rays meet the scene's own triangles. These are far fewer than the patches, and a ray takes a half to a
-// quarter of its time among the patches (docs/performance.md).
+// quarter of its time among the patches (docs/lab-book.md).
 #pragma once
 
 #include <array>

@@ -12,7 +12,7 @@ namespace stilb::estimators {
 namespace {
 
 /// Directions in which the light that comes to a point y is sought. Few rays get so far, and most of their
-/// noise is that of what comes next: a bright spot under the ceiling, say (docs/performance.md).
+/// noise is that of what comes next: a bright spot under the ceiling, say (docs/lab-book.md).
 constexpr int kBeams = 2;
 
 /// A point y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.

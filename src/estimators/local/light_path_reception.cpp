@@ -17,7 +17,7 @@ namespace {
 constexpr std::uint64_t kPathsPerPass = 4096;
 constexpr std::uint64_t kPathsPerSelected = 256;
 /// The k of diffuse receivers, over that of a plan: plans expect vertices by their flux, but those near a
-/// receiver are chosen, so that connections cost less variance (docs/performance.md).
+/// receiver are chosen, so that connections cost less variance (docs/lab-book.md).
 constexpr double kDiffuseFactor = 8;
 /// Planning rays from each sub-point.
 constexpr unsigned kPilotRays = 4;

@@ -18,7 +18,7 @@ namespace {
 // Costs in units of one shadow ray of a connection, and factors of the variance model; measured in the
 // example office. From the end of a gathering ray two paths go on. The model has the cost and the variance of
 // one path. A model of both paths was tried: plans became no better, and auto chose the guess of the light in
-// a scene where it is slower (docs/performance.md).
+// a scene where it is slower (docs/lab-book.md).
 constexpr double kRayCost = 12;        ///< a gathering ray to its hit
 constexpr double kPathCost = 75;       ///< a path that goes on, shared by its packet
 constexpr double kSegmentCost = 12;    ///< a light path's segment from one vertex to the next
