@@ -79,7 +79,7 @@ void RunFlags::add_those_of_all(Command& command) {
         .add("--paths", paths,
              "Stop after this many samples of the technique that the result names, rounded up: light paths "
              "(light-paths, local, double-local) to a multiple of 2048 (of more or less with many points), "
-             "paths per reading (path) or samples (guided, radiosity) to a multiple of 32 or 8, steps "
+             "paths per reading (path) or samples (guided, radiosity) to a multiple of 32, steps "
              "(ray-bundle) to a multiple of 512 or more, particles (particles) to a multiple of 131072; "
              "pictures: passes, at least 2")
         .from_to(1, kMostPaths)

@@ -19,6 +19,7 @@ inline RunResult luminance_results() {
     const statistics::Estimate low{100, 1, 98, 102}, high{200, 1, 198, 202}, mean{150, 1, 148, 152};
     RunResult result;
     result.method = "auto";
+    result.technique = "light-paths";
     result.sensors = {
         {view, {reading(100), reading(200)}, {Vec3{2, 4, 1}, std::nullopt}, {mean, low, high, {}}, 0.02},
         {solid, {reading(29), reading(30), reading(31)}, {}, {mean, low, high, {}}, 0.07}};

@@ -59,7 +59,7 @@ TEST(ResultsJson, GoniometersHaveAngles) {
 }
 
 TEST(ResultsJson, BodiesHaveAnAxisWhereItIsNotTheVertical) {
-    RunResult made;
+    RunResult made = luminance_results();
     const Sensor semicylinder{"face", Semicylindrical{{{1, 2, 3}}, {0, 1, 0}}};
     const Sensor sphere{"middle", Spherical{{{1, 2, 3}}}};
     made.sensors = {{semicylinder, {reading(100)}, {}, {}, 0.02}, {sphere, {reading(200)}, {}, {}, 0.02}};
@@ -80,6 +80,14 @@ TEST(ResultsJson, LuminancesHaveNoUniformity) {
             "mean_interval": [148.0, 152.0], "minimum_interval": [98.0, 102.0],
             "maximum_interval": [198.0, 202.0]})"));
     }
+}
+
+TEST(ResultsJson, NamesTheTechniqueAndWhatASampleIs) {
+    const Json json = Json::parse(to_json(luminance_results(), "room.toml"));
+    EXPECT_EQ(json["format"], 1);
+    EXPECT_EQ(json["method"], "auto");
+    EXPECT_EQ(json["technique"], "light-paths");
+    EXPECT_EQ(json["sample"], "a path of light from a lamp, which all readings share");
 }
 
 TEST(ResultsJson, PatchesSayWhatBecameOfLights) {

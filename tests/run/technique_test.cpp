@@ -1,5 +1,5 @@
-// A result names what has computed it: the same scene, seed, technique and number of paths give its bits again,
-// whatever ended the run.
+// A result names what has computed it: the same scene, seed, technique and number of paths give its bits
+// again, whatever ended the run.
 #include <gtest/gtest.h>
 
 #include <string>
@@ -98,6 +98,7 @@ TEST(Technique, OfOtherMethodsIsTheMethod) {
         RunOptions options;
         options.method = method;
         options.paths = 1;
+        options.patches.patch_m = 1;
         EXPECT_EQ(measure(room_with_box(), {&sensor, 1}, options).technique, method);
     }
 }

@@ -122,7 +122,7 @@ class MeasureTest(CommandLineTest):
 
     def test_paths_are_rounded_up_as_the_help_says(self):
         text = run("measure", "--help").stdout
-        for method, multiple in (("auto", 32), ("local", 2048), ("double-local", 2048), ("path", 32),
+        for method, multiple in (("light-paths", 2048), ("guided", 32), ("local", 2048), ("double-local", 2048), ("path", 32),
                                  ("radiosity", 32), ("ray-bundle", 512), ("particles", 131072)):
             with self.subTest(method=method):
                 self.assertRegex(text, rf"\b{method}\b[^;]* to a multiple of {multiple}\b")
@@ -134,12 +134,13 @@ class MeasureTest(CommandLineTest):
                     self.assertEqual(self.measure("--method", method, "--paths", "33", *patch)["paths"], 64)
 
     def test_the_table_names_the_samples(self):
-        for method, samples in (("auto", "paths"), ("path", "paths"), ("ray-bundle", "steps"), ("radiosity", "samples"),
+        for method, samples in (("auto", "(paths|light paths|samples)"), ("light-paths", "light paths"), ("path", "paths"), ("ray-bundle", "steps"), ("radiosity", "samples"),
                                 ("particles", "particles")):
             patch = ("--patch", "1") if method in ("radiosity", "ray-bundle", "particles") else ()
             with self.subTest(method=method):
                 table = run("measure", self.scene, "--method", method, "--paths", "1", *patch).stdout
-                self.assertRegex(table, rf"\n{method}, [0-9]+ {samples} in [0-9.]+ s: all {samples} done; error ")
+                self.assertRegex(table, rf"\n{method}( \(.*\))?, [0-9]+ {samples} in [0-9.]+ s: all {samples} done; error ")
+                self.assertEqual("auto (" in table, method == "auto")
 
     def test_the_error_of_patches(self):
         document = self.measure("--method", "particles", "--patch", "1", "--paths", "1")
