@@ -25,7 +25,7 @@ TEST(ResultsTable, ShowsLinesOfSightAndDirections) {
               "    theta     0°  phi    90°   30.0 ± 2.0 cd/m²\n"
               "    theta    60°  phi    90°   31.0 ± 2.0 cd/m²\n"
               "\n"
-              "auto (light-paths), 0 light paths in 0.00 s: all paths done; error 0 %\n");
+              "auto (light-paths), 0 light paths in 0.00 s: all light paths done; error 0 %\n");
 }
 
 TEST(ResultsTable, OneLineOfSightIsOneLine) {
@@ -41,7 +41,7 @@ TEST(ResultsTable, SaysWhatPatchesStandFor) {
     RunResult made = io::luminance_results();
     made.patches = io::patch_report();
     EXPECT_TRUE(table_of(made).ends_with(
-        "\nauto (light-paths), 0 light paths in 0.00 s: all paths done; error 0 %\n"
+        "\nauto (light-paths), 0 light paths in 0.00 s: all light paths done; error 0 %\n"
         "1000 patches of 0.25 m; first shot (incoming, resolution 256) for 1 of 2 lights, 0.12 s, "
         "72 bytes per patch\n"
         "lights not replaced: panel (large)\n"))

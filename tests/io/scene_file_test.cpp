@@ -198,7 +198,7 @@ TEST(SceneFile, RefusesNamesThatCannotBeFileNames) {
 TEST(SceneFile, RefusesWrongRunOptions) {
     EXPECT_REFUSAL("[run]\nmethod = \"pth\"",
                    "s.toml:2: run.method: unknown method \"pth\". Did you mean \"path\"? Allowed: auto, "
-                   "local, double-local, path, ray-bundle, radiosity, particles.");
+                   "local, double-local, path, ray-bundle, radiosity, particles, light-paths, guided.");
     EXPECT_REFUSAL("[run]\nmetod = \"auto\"",
                    "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, "
                    "target, time, paths, "

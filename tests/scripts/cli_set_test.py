@@ -82,7 +82,7 @@ class ProgressTest(CommandLineTest):
         silent = run("measure", self.scene, "--error", "0.0001%", "--time", "2")
         told = run("measure", self.scene, "--error", "0.0001%", "--time", "2", "--progress")
         self.assertNotRegex(silent.stderr, r"\d paths")
-        self.assertRegex(told.stderr, r"(?m)^\d+\.\d s  \d+ paths  error [\d.]+ %")
+        self.assertRegex(told.stderr, r"(?m)^\d+\.\d s  \d+ samples  error [\d.]+ %")
         self.assertNotIn("\033", told.stderr)
 
 

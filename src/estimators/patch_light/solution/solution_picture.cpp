@@ -40,7 +40,7 @@ class SolutionPicture final : public Estimator {
     }
 
     // There are no readings.
-    std::string_view technique() const override { return "ray-bundle"; }
+    std::string_view technique() const override { return "solution"; }
     void run_batch(const Batch&, ReadingSums&) const override {}
     std::span<const Rgb> known_part() const override { return {}; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return {}; }
