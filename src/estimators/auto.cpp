@@ -296,8 +296,8 @@ struct Candidate {
     /// where its pilot has found no light.
     bool is_path = false;
 };
-/// The work that is left by what is chosen only where all others miss light.
-constexpr double kLastResort = 1e300;
+/// The work that is left by what is chosen only where all others miss light, and by what misses some.
+constexpr double kLastResort = 1e300, kNever = std::numeric_limits<double>::infinity();
 
 struct Question {
     const Problem& problem;
@@ -311,9 +311,8 @@ struct Tried {
     Pilot pilot;
 };
 
-/// The work by each; infinite where it misses light.
+/// The work by each; kNever where it misses light.
 std::vector<double> costs_of(std::span<const Tried> tried, const Question& question) {
-    constexpr double infinite = std::numeric_limits<double>::infinity();
     std::vector<double> values(tried[0].pilot.means.size());
     for (const Tried& one : tried) {
         if (one.candidate->cost_left < kLastResort) values = larger(values, one.pilot.means);
@@ -325,7 +324,7 @@ std::vector<double> costs_of(std::span<const Tried> tried, const Question& quest
                                               : tried[0].candidate->is_path &&
                                                     misses_light(one.pilot, tried[0].pilot, question.part);
         const double sampling = candidate.factor * question.cost(one.pilot, values, question.part);
-        costs.push_back(misses ? infinite : candidate.cost_left + sampling);
+        costs.push_back(misses ? kNever : candidate.cost_left + sampling);
     }
     return costs;
 }
@@ -410,7 +409,7 @@ std::unique_ptr<Estimator> choose_for_many(const Problem& problem) {
     std::vector<Candidate> candidates{
         {.make = make_path,
          .trials = {trial(key.derived(kPath), kComparedPaths)},
-         .cost_left = finds_all_by_rays ? kLastResort : std::numeric_limits<double>::infinity(),
+         .cost_left = finds_all_by_rays ? kLastResort : kNever,
          .is_path = true},
         {.make = make_balanced,
          .trials = {{[=](const Estimator& method) {

@@ -29,7 +29,7 @@ std::span<const OtherConstants> other_constants() {
          "kLocationsTried kMostTests"},
         {"src/checks/walks.cpp", "particles reflections"},
         {"src/estimators/auto.cpp",
-         "rounding kReplicates kPilots kPlanningRayCost kPatchCost kWorthPlanning "
+         "kLastResort kNever rounding kReplicates kPilots kPlanningRayCost kPatchCost kWorthPlanning "
          "kPathPilotCost kLeastPaths kQuickPilotCost kLeastQuickPaths kClearly "
          "kSobolGain kComparedPaths kGuidedSamples kPilotBlock kPilotRows kPilotPasses "
          "kPilotReplicates kGuidedPassCost kGlossyPassCost kContinuedCost"},
