@@ -122,9 +122,9 @@ odr: setup ## link with link-time optimisation: fails where two files define one
 	@cmake --build --preset odr --target stilb
 
 sanitize: setup ## all tests with address and undefined-behaviour sanitizers
-	@$(call configure,debug)
-	@cmake --build --preset debug
-	@ctest --preset debug -j $(JOBS)
+	@$(call configure,sanitize)
+	@cmake --build --preset sanitize
+	@ctest --preset sanitize -j $(JOBS)
 
 fuzz: setup-lint ## each reader's fuzz target for FUZZ_SECONDS (60)
 	@$(call configure,fuzz)

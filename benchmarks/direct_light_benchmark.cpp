@@ -13,6 +13,7 @@
 #include "efficiency.h"
 #include "estimators/estimator.h"
 #include "estimators/estimator_list.h"
+#include "materials/diffuse.h"
 #include "rooms.h"
 #include "transport/direct/direct_light.h"
 

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "estimators/estimator_list.h"
+#include "materials/diffuse.h"
 #include "rooms.h"
 #include "transport/light_sampler.h"
 #include "transport/weights.h"
@@ -79,7 +80,7 @@ PreparedRays prepare_rays(const Scene& scene, const rays::RayCaster& caster) {
     };
     const transport::LightSampler lights(scene, caster);
     const sensors::CameraView view(make_camera());
-    const Rgb reflectance = std::get<Diffuse>(scene.materials.front().material).reflectance;
+    const Rgb reflectance = scene.materials.front().material.get_if<Diffuse>()->reflectance;
     math::SampleStream stream(math::RandomKey{5}, 0, 0);
     PreparedRays prepared;
     std::size_t camera = 0, reflected = 0, first_segments = 0, segments = 0;

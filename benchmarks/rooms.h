@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/diffuse.h"
+#include "materials/phong.h"
 #include "math/random.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"

@@ -15,6 +15,10 @@
 #include <vector>
 
 #include "estimators/patch_light/incoming_light.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
 
 namespace stilb {
 namespace {

@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "io/results/solution_file.h"
+#include "materials/diffuse.h"
+#include "materials/phong.h"
 #include "stilb/error.h"
 
 namespace {

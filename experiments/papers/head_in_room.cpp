@@ -4,6 +4,7 @@
 
 #include "base/vec.h"
 #include "io/scene/scene_file.h"
+#include "materials/diffuse.h"
 #include "papers/paper_room.h"
 #include "rays/ray_caster.h"
 

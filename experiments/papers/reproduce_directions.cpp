@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "io/text/table.h"
+#include "materials/diffuse.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"
 

@@ -8,6 +8,9 @@
 
 #include "cli/progress.h"
 #include "io/text/table.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/phong.h"
 #include "papers/estimate_series.h"
 #include "papers/reproduce.h"
 #include "plot/plot.h"

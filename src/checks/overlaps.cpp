@@ -9,6 +9,7 @@
 #include "base/vec.h"
 #include "checks/checks.h"
 #include "checks/walks.h"
+#include "materials/dielectric.h"
 #include "math/sampling.h"
 
 namespace stilb::checks {
@@ -86,7 +87,7 @@ class OverlapLight {
   private:
     bool is_glass(ObjectId object) const {
         return std::ranges::any_of(scene_.object(object).materials, [&](MaterialId material) {
-            return std::holds_alternative<Dielectric>(scene_.material(material));
+            return scene_.material(material).is<Dielectric>();
         });
     }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <string_view>
 
+#include "materials/black.h"
+#include "materials/diffuse.h"
 #include "stilb/error.h"
 #include "transport/receiver.h"
 #include "transport/weights.h"
@@ -60,8 +62,7 @@ void require_diffuse(const Scene& scene, std::string_view method) {
     for (const Object& object : scene.objects) {
         for (const MaterialId id : object.materials) {
             const NamedMaterial& used = scene.materials[index_of(id)];
-            if (std::holds_alternative<Diffuse>(used.material) ||
-                std::holds_alternative<Black>(used.material)) {
+            if (used.material.is<Diffuse>() || used.material.is<Black>()) {
                 continue;
             }
             throw InputError(fmt::format(

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <optional>
 
+#include "materials/black.h"
+
 namespace stilb::fit {
 
 namespace {

@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <type_traits>
+
+#include "materials/model_list.h"
 
 namespace stilb::materials {
 namespace {
@@ -20,12 +23,14 @@ consteval bool is_model() {
     return true;
 }
 template <typename... Models>
-consteval bool are_models(std::type_identity<std::variant<Models...>>) {
+consteval bool are_models(std::type_identity<std::tuple<Models...>>) {
     return (is_model<Models>() && ...);
 }
-static_assert(are_models(std::type_identity<Material>{}));
+static_assert(are_models(std::type_identity<ModelList>{}));
 
 }  // namespace
+
+Material::Material() : Material(Diffuse{}) {}
 
 std::optional<std::string> contradiction_of_shares(const Rgb& diffuse, const Rgb& specular) {
     constexpr double rounding = 1e-12;  // 0.7 + 0.3 need not be 1 to the last bit
@@ -43,9 +48,17 @@ std::vector<std::string_view> type_names() {
     return names;
 }
 
+std::string_view type_name(const Material& material) {
+    return visit_model([]<typename M>(const M&) { return M::kType; }, material);
+}
+
+Rgb evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
+    return visit_model([&](const auto& model) { return evaluate_brdf_per_sr(model, in, out); }, material);
+}
+
 std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& in, double u1, double u2) {
     if (in.z <= 0) return std::nullopt;
-    return std::visit(
+    return visit_model(
         [&]<typename M>(const M& model) -> std::optional<ScatterSample> {
             if constexpr (Scattering<M>) return model.sample(in, u1, u2);
             return std::nullopt;
@@ -55,7 +68,7 @@ std::optional<ScatterSample> sample_brdf(const Material& material, const Vec3& i
 
 double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
     if (in.z <= 0 || out.z <= 0) return 0;
-    return std::visit(
+    return visit_model(
         [&]<typename M>(const M& model) -> double {
             if constexpr (Scattering<M>) return model.pdf_per_sr(in, out);
             return 0;
@@ -65,7 +78,7 @@ double pdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
 
 ScatterValue evaluate_and_pdf(const Material& material, const Vec3& in, const Vec3& out) {
     if (in.z <= 0 || out.z <= 0) return {};
-    return std::visit(
+    return visit_model(
         [&]<typename M>(const M& model) -> ScatterValue {
             if constexpr (Scattering<M>) return model.evaluate(in, out);
             return {};
@@ -74,12 +87,12 @@ ScatterValue evaluate_and_pdf(const Material& material, const Vec3& in, const Ve
 }
 
 bool is_specular(const Material& material) {
-    return std::visit([]<typename M>(const M&) { return Specular<M>; }, material);
+    return visit_model([]<typename M>(const M&) { return Specular<M>; }, material);
 }
 
 SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in) {
     if (in.z <= 0) return {};
-    return std::visit(
+    return visit_model(
         [&]<typename M>(const M& model) -> SpecularBranches {
             if constexpr (Specular<M>) return model.branches(side, in);
             return {};
@@ -93,11 +106,11 @@ bool transmits(const Material& material) {
 }
 
 bool passes_straight(const Material& material) {
-    return std::visit([]<typename M>(const M&) { return PassesStraight<M>; }, material);
+    return visit_model([]<typename M>(const M&) { return PassesStraight<M>; }, material);
 }
 
 Rgb straight_transmittance(const Material& material, double cosine) {
-    return std::visit(
+    return visit_model(
         [&]<typename M>(const M& model) -> Rgb {
             if constexpr (PassesStraight<M>) return model.straight_transmittance(cosine);
             return {};
@@ -106,7 +119,7 @@ Rgb straight_transmittance(const Material& material, double cosine) {
 }
 
 double mean_concentration(const Material& material) {
-    return std::visit(
+    return visit_model(
         []<typename M>(const M& model) -> double {
             if constexpr (Scattering<M>) return model.concentration();
             return 0;
@@ -115,7 +128,7 @@ double mean_concentration(const Material& material) {
 }
 
 Rgb reflectance_bound(const Material& material) {
-    return std::visit([](const auto& model) { return model.reflectance_bound(); }, material);
+    return visit_model([](const auto& model) { return model.reflectance_bound(); }, material);
 }
 
 Rgb stated_reflectance(const Material& material) {
@@ -129,7 +142,7 @@ Rgb stated_reflectance(const Material& material) {
 }
 
 void validate(const Material& material, std::string_view path) {
-    std::visit([&](const auto& model) { validate_fields(parameters_of(model), path); }, material);
+    visit_model([&](const auto& model) { validate_fields(parameters_of(model), path); }, material);
 }
 
 }  // namespace stilb::materials

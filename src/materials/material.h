@@ -1,56 +1,51 @@
 // Materials: the reflection models of surfaces. Every material is two-sided: both sides reflect equally.
 //
-// A new model is two new files with the members of the concept Model of model.h, and its name in the list
-// here. Directions are those of model.h. Formulas and limits: docs/materials.md.
+// This file does not include the models: what uses one includes its file, what visits all includes
+// model_list.h. Directions are those of model.h. Formulas and limits: docs/materials.md.
 #pragma once
 
+#include <memory>
 #include <string_view>
-#include <type_traits>
-#include <variant>
 #include <vector>
 
-#include "materials/black.h"
-#include "materials/dielectric.h"
-#include "materials/diffuse.h"
-#include "materials/mirror.h"
 #include "materials/model.h"
-#include "materials/phong.h"
-#include "materials/plastic.h"
-#include "materials/rough_conductor.h"
-#include "materials/thin_dielectric.h"
-#include "materials/ward.h"
 
 namespace stilb::materials {
 
-/// In the order of lists for users.
-using Material =
-    std::variant<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric, ThinDielectric, Black>;
+/// Different for each type.
+template <typename M>
+inline constexpr char kIdentity = 0;
 
-/// Calls `visit.template operator()<M>()` for every model M, in order.
-template <typename Visit>
-void for_each_model(const Visit& visit) {
-    [&]<typename... Models>(std::type_identity<std::variant<Models...>>) {
-        (visit.template operator()<Models>(), ...);
-    }(std::type_identity<Material>{});
-}
+/// One of the models of model_list.h, as a value. Copies share it, for a model does not change.
+class Material {
+  public:
+    template <Model M>
+    Material(const M& model) : model_(std::make_shared<const M>(model)), identity_(&kIdentity<M>) {}
+    /// Diffuse, and reflects nothing.
+    Material();
+
+    template <Model M>
+    bool is() const {
+        return identity_ == &kIdentity<M>;
+    }
+    /// The model where it is an M, else nothing.
+    template <Model M>
+    const M* get_if() const {
+        return is<M>() ? static_cast<const M*>(model_.get()) : nullptr;
+    }
+
+  private:
+    std::shared_ptr<const void> model_;
+    const char* identity_;
+};
 
 /// Names of the models in scene files.
 std::vector<std::string_view> type_names();
+/// The name of this one.
+std::string_view type_name(const Material& material);
 
-/// BRDF [1/sr]; 0 for directions below the surface and for specular materials. Reciprocal. Available for one
-/// model too, so that a loop over many directions can select the model outside.
-template <Model M>
-Rgb evaluate_brdf_per_sr([[maybe_unused]] const M& model, [[maybe_unused]] const Vec3& in,
-                         [[maybe_unused]] const Vec3& out) {
-    if constexpr (Scattering<M>) {
-        return in.z > 0 && out.z > 0 ? model.brdf_per_sr(in, out) : Rgb{};
-    } else {
-        return {};
-    }
-}
-inline Rgb evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out) {
-    return std::visit([&](const auto& model) { return evaluate_brdf_per_sr(model, in, out); }, material);
-}
+/// BRDF [1/sr]; 0 for directions below the surface and for specular materials. Reciprocal.
+Rgb evaluate_brdf_per_sr(const Material& material, const Vec3& in, const Vec3& out);
 
 /// Samples a direction from the material's own density, by two numbers in [0, 1); nothing where light is
 /// absorbed and for specular materials, whose directions specular_branches() gives.
@@ -85,12 +80,6 @@ Rgb stated_reflectance(const Material& material);
 /// Throws an InputError in the wording of the scene reader where a parameter is out of its range, or several
 /// contradict each other. `path`: such as materials.wall.
 void validate(const Material& material, std::string_view path);
-/// Constructs the model from these parameters after checking them, because its tables depend on them.
-template <Model M>
-M make(const ParametersOf<M>& parameters, std::string_view path) {
-    validate_fields(parameters, path);
-    return M(parameters);
-}
 
 }  // namespace stilb::materials
 

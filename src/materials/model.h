@@ -136,6 +136,26 @@ concept PassesStraight = Specular<M> && requires(const M& model, double cosine) 
     { model.straight_transmittance(cosine) } -> std::same_as<Rgb>;
 };
 
+/// Constructs the model from these parameters after checking them, because its tables depend on them. Throws
+/// like validate() of material.h.
+template <Model M>
+M make(const ParametersOf<M>& parameters, std::string_view path) {
+    validate_fields(parameters, path);
+    return M(parameters);
+}
+
+/// BRDF [1/sr] of one model: 0 for directions below the surface and for specular models. A loop over many
+/// directions so chooses the model outside.
+template <Model M>
+Rgb evaluate_brdf_per_sr([[maybe_unused]] const M& model, [[maybe_unused]] const Vec3& in,
+                         [[maybe_unused]] const Vec3& out) {
+    if constexpr (Scattering<M>) {
+        return in.z > 0 && out.z > 0 ? model.brdf_per_sr(in, out) : Rgb{};
+    } else {
+        return {};
+    }
+}
+
 /// The mean of pi f / albedo at normal incidence over the reflected light: 1 for a diffuse material, large
 /// for a narrow lobe, 0 where nothing is reflected. By an even grid of samples; accurate to a few per cent.
 /// For models without a closed expression.

@@ -1,5 +1,7 @@
 #include "materials/split_material.h"
 
+#include "materials/model_list.h"
+
 namespace stilb::materials {
 namespace {
 
@@ -12,12 +14,13 @@ Material split_off(const Ward& ward) {
 
 struct Divider {
     static SplitMaterial parts(const Rgb& diffuse, const Material& gloss) {
-        SplitMaterial result{Diffuse{diffuse}, std::nullopt};
-        if (reflectance_bound(gloss).max() > 0) result.gloss = gloss;
-        return result;
+        return {diffuse, Diffuse{diffuse},
+                reflectance_bound(gloss).max() > 0 ? std::optional(gloss) : std::nullopt};
     }
 
-    SplitMaterial operator()(const Diffuse& diffuse) const { return {diffuse, std::nullopt}; }
+    SplitMaterial operator()(const Diffuse& diffuse) const {
+        return {diffuse.reflectance, diffuse, std::nullopt};
+    }
     SplitMaterial operator()(const Phong& phong) const { return parts(phong.diffuse, split_off(phong)); }
     SplitMaterial operator()(const Ward& ward) const {
         return parts(ward.parameters().diffuse, split_off(ward));
@@ -30,6 +33,6 @@ struct Divider {
 
 }  // namespace
 
-SplitMaterial split(const Material& material) { return std::visit(Divider{}, material); }
+SplitMaterial split(const Material& material) { return visit_model(Divider{}, material); }
 
 }  // namespace stilb::materials

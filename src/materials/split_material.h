@@ -10,12 +10,12 @@
 namespace stilb::materials {
 
 struct SplitMaterial {
-    Material diffuse;               ///< a Diffuse
+    Rgb diffuse_reflectance;
+    Material diffuse;               ///< a Diffuse of this reflectance
     std::optional<Material> gloss;  ///< nothing where all reflection is diffuse
 
-    const Rgb& diffuse_reflectance() const { return std::get<Diffuse>(diffuse).reflectance; }
     Rgb gloss_reflectance() const { return gloss ? reflectance_bound(*gloss) : Rgb{}; }
-    bool reflects() const { return diffuse_reflectance().max() > 0 || gloss; }
+    bool reflects() const { return diffuse_reflectance.max() > 0 || gloss; }
 };
 
 SplitMaterial split(const Material& material);

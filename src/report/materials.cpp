@@ -12,6 +12,7 @@
 #include "geometry/shape.h"
 #include "io/image/tone_curve.h"
 #include "io/import/textures/textured_surfaces.h"
+#include "materials/model_list.h"
 #include "report/drawing.h"
 
 namespace stilb::report {
@@ -25,7 +26,7 @@ std::string number_text(const std::array<double, 2>& values) {
 
 /// "diffuse 0.45, exponent 40", but for the reflectance, which has a column of its own.
 std::string parameters_text(const Material& material) {
-    return std::visit(
+    return materials::visit_model(
         []<typename Model>(const Model& model) {
             std::string text;
             for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
@@ -112,8 +113,7 @@ Html materials_table(const Scene& scene) {
     for (const Line& line : lines_of(scene)) {
         const Material& material = line.material;
         const Rgb reflectance = line.reflectance();
-        const std::string_view type =
-            std::visit([]<typename Model>(const Model&) { return Model::kType; }, material);
+        const std::string_view type = materials::type_name(material);
         std::string parameters = parameters_text(material);
         if (passes_straight(material))
             parameters += fmt::format(", transmittance {}", number_text(straight_transmittance(material, 1)));

@@ -10,6 +10,8 @@
 #include <utility>
 
 #include "base/names.h"
+#include "materials/dielectric.h"
+#include "materials/thin_dielectric.h"
 #include "scene/glass_bodies.h"
 #include "scene/instances.h"
 
@@ -146,9 +148,7 @@ class GlassSettler {
     template <typename Replace>
     void for_each_material(const Part& part, const Replace& replace) {
         Object& object = scene_.objects[index_of(part.object)];
-        const auto is_glass = [&](MaterialId id) {
-            return std::holds_alternative<Dielectric>(scene_.material(id));
-        };
+        const auto is_glass = [&](MaterialId id) { return scene_.material(id).is<Dielectric>(); };
         const Mesh* mesh = geometry::stored_mesh(object.shape);
         const std::size_t count = mesh ? mesh->triangles.size() : part.triangles->size();
         if (object.materials.size() == 1 && part.triangles->size() == count) {
@@ -165,7 +165,7 @@ class GlassSettler {
 
     MaterialId between(MaterialId id, double front, double back) {
         const Dielectric wanted{back, front};
-        const auto& now = std::get<Dielectric>(scene_.material(id));
+        const auto& now = *scene_.material(id).get_if<Dielectric>();
         if (now.ior == wanted.ior && now.outside_ior == wanted.outside_ior) return id;
         return derived({index_of(id), front, back}, [&] {
             return NamedMaterial{
@@ -174,7 +174,7 @@ class GlassSettler {
         });
     }
     MaterialId sheet_of(MaterialId id) {
-        const double ior = std::get<Dielectric>(scene_.material(id)).ior;
+        const double ior = scene_.material(id).get_if<Dielectric>()->ior;
         return derived({index_of(id), 0, 0}, [&] {
             return NamedMaterial{scene_.materials[index_of(id)].name + " (a sheet)", ThinDielectric{ior}};
         });
@@ -231,9 +231,8 @@ class GlassSettler {
 }  // namespace
 
 std::vector<std::string> settle_glass(Scene& scene) {
-    const bool has_glass = std::ranges::any_of(scene.materials, [](const NamedMaterial& material) {
-        return std::holds_alternative<Dielectric>(material.material);
-    });
+    const bool has_glass = std::ranges::any_of(
+        scene.materials, [](const NamedMaterial& material) { return material.material.is<Dielectric>(); });
     if (!has_glass) return {};
     return GlassSettler(scene).run();
 }

@@ -13,6 +13,7 @@
 #include "base/rays.h"
 #include "base/vec.h"
 #include "geometry/mesh_topology.h"
+#include "materials/dielectric.h"
 #include "scene/instances.h"
 
 namespace stilb::scene {
@@ -240,8 +241,8 @@ class OverlapSearch {
         shape.mesh = mesh ? mesh : &shape.own;
         const auto look_at = [&](MaterialId material) {
             // Of two bodies of glass each face counts, even if they have one material.
-            const bool is_glass = of_ == OverlapsOf::all_surfaces &&
-                                  std::holds_alternative<Dielectric>(scene.material(material));
+            const bool is_glass =
+                of_ == OverlapsOf::all_surfaces && scene.material(material).is<Dielectric>();
             return look_of(material, is_lamp || is_glass ? index + 1 : 0);
         };
         std::uint32_t look = look_at(object.materials[0]);

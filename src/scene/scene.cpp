@@ -6,6 +6,13 @@
 
 namespace stilb::scene {
 
+Scene::Scene() = default;
+Scene::Scene(const Scene&) = default;
+Scene::Scene(Scene&&) noexcept = default;
+Scene& Scene::operator=(const Scene&) = default;
+Scene& Scene::operator=(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
 Bounds LightSurroundings::bounds() const { return bounds_of(scene_); }
 
 Bounds bounds_of(const Scene& scene) {

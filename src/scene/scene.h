@@ -52,6 +52,14 @@ struct Scene {
     std::vector<NamedSolid> solids;
     std::vector<Light> lights;
 
+    // Compiled once, not wherever a scene is copied or ends: each is a thousand instructions.
+    Scene();
+    Scene(const Scene&);
+    Scene(Scene&&) noexcept;
+    Scene& operator=(const Scene&);
+    Scene& operator=(Scene&&) noexcept;
+    ~Scene();
+
     const Material& material(MaterialId id) const { return materials[index_of(id)].material; }
     const Object& object(ObjectId id) const { return objects[index_of(id)]; }
     const PhotometricSolid& solid(SolidId id) const { return solids[index_of(id)].solid; }

@@ -5,6 +5,7 @@
 
 #include "geometry/bounds_tree.h"
 #include "geometry/mesh_topology.h"
+#include "materials/mirror.h"
 
 namespace stilb::scene {
 namespace {
@@ -12,7 +13,7 @@ namespace {
 bool is_opaque(const Scene& scene, const Object& object) {
     return std::ranges::none_of(object.materials, [&](MaterialId id) {
         const Material& material = scene.material(id);
-        return is_specular(material) && !std::holds_alternative<Mirror>(material);
+        return is_specular(material) && !material.is<Mirror>();
     });
 }
 

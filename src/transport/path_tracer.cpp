@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "materials/diffuse.h"
 #include "materials/shaded_surface.h"
 #include "transport/line_of_sight.h"
 #include "transport/path_wave.h"
@@ -34,7 +35,7 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
     }
     if (stored_) return;
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const auto* diffuse = std::get_if<Diffuse>(&scene.materials[i].material);
+        const auto* diffuse = scene.materials[i].material.get_if<Diffuse>();
         if (diffuse == nullptr) continue;
         plain_materials_[i].is_plain = true;
         for (std::size_t b = 0; b < kBands; ++b)

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/diffuse.h"
 #include "math/morton.h"
 #include "sensors/place.h"
 #include "transport/weights.h"
@@ -62,7 +63,7 @@ Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Mater
 }
 
 void Receiver::set_constant_response() {
-    const auto* diffuse = std::get_if<Diffuse>(&surface_.material());
+    const auto* diffuse = surface_.material().get_if<Diffuse>();
     constant_response_.reset();
     if (diffuse && !surface_.is_bent())
         constant_response_ = factor_ * diffuse->reflectance * std::numbers::inv_pi;

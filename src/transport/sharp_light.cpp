@@ -5,6 +5,7 @@
 #include <variant>
 #include <vector>
 
+#include "materials/diffuse.h"
 #include "materials/shaded_surface.h"
 #include "materials/split_material.h"
 #include "transport/light_sampler.h"
@@ -92,7 +93,7 @@ class SharpParticle {
     /// Follows the lobe of a material, where it has one, with all the flux that the lobe reflects. The lobe
     /// blurs the lamp as if it were larger, by its solid angle.
     bool reflect(const Material& material, const rays::Hit& hit, math::SampleStream& stream) {
-        if (std::holds_alternative<Diffuse>(material)) return false;
+        if (material.is<Diffuse>()) return false;
         const materials::ShadedSurface surface(material, hit.normal, hit.shading_normal);
         const Vec3 in = surface.frame().to_local(-direction_);
         Rgb albedo;

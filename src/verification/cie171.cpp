@@ -12,6 +12,8 @@
 #include "exact/configuration_factors.h"
 #include "exact/diffuse_cube.h"
 #include "lights/luminaire.h"
+#include "materials/black.h"
+#include "materials/thin_dielectric.h"
 #include "math/gauss_legendre.h"
 #include "statistics/combination.h"
 

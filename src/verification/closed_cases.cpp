@@ -5,6 +5,13 @@
 #include <cmath>
 
 #include "exact/closed_rooms.h"
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
 #include "verification/verification.h"
 
 namespace stilb::verification {

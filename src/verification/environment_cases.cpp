@@ -6,6 +6,11 @@
 #include <utility>
 
 #include "exact/configuration_factors.h"
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/mirror.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
 #include "math/sampling.h"
 #include "verification/verification.h"
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/diffuse.h"
 #include "math/sampling.h"
 #include "verification/verification.h"
 

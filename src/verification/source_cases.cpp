@@ -10,6 +10,9 @@
 #include "exact/closed_rooms.h"
 #include "exact/configuration_factors.h"
 #include "io/mesh/mesh_file.h"
+#include "materials/black.h"
+#include "materials/mirror.h"
+#include "materials/thin_dielectric.h"
 #include "math/sampling.h"
 #include "verification/verification.h"
 

@@ -12,6 +12,7 @@
 
 #include "estimators/estimator_list.h"
 #include "exact/sobolev.h"
+#include "materials/diffuse.h"
 #include "run/run.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"

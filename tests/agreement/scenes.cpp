@@ -1,5 +1,14 @@
 #include "agreement/scenes.h"
 
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
 

@@ -3,6 +3,7 @@
 
 #include "../support/scene_builder.h"
 #include "checks/checks.h"
+#include "materials/diffuse.h"
 
 namespace stilb::checks {
 namespace {

@@ -2,6 +2,7 @@
 
 #include "../support/scene_builder.h"
 #include "checks/checks.h"
+#include "materials/thin_dielectric.h"
 
 namespace stilb::checks {
 namespace {

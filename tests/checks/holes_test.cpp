@@ -3,6 +3,8 @@
 #include <cmath>
 
 #include "checks/checks.h"
+#include "materials/black.h"
+#include "support/scene_builder.h"
 
 namespace stilb::checks {
 namespace {
@@ -35,7 +37,9 @@ Mesh ball() {
 }
 
 std::vector<std::string> warnings_of(const Mesh& mesh, const std::vector<Light>& lights = {}) {
-    const Scene scene{"", {{"wall", Black{}}}, {{"ball", mesh, {MaterialId{0}}}}, {}, lights};
+    Scene scene;
+    add_object(scene, mesh, Black{});
+    scene.lights = lights;
     return hole_warnings(scene, {find_components(mesh)});
 }
 
@@ -75,7 +79,8 @@ TEST(Holes, TubesAreMeantSo) {
 TEST(Holes, ManyObjectsAreOneSentence) {
     Mesh mesh = ball();
     mesh.triangles.erase(mesh.triangles.begin() + 100);
-    Scene scene{"", {{"wall", Black{}}}, {}, {}, {}};
+    Scene scene;
+    scene.materials = {{"wall", Black{}}};
     std::vector<geometry::ConnectedComponents> components;
     for (const char* name : {"a", "b", "c", "d"}) {
         scene.objects.push_back({name, mesh, {MaterialId{0}}});

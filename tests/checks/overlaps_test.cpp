@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "checks/checks.h"
+#include "materials/diffuse.h"
 
 namespace stilb::checks {
 namespace {

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "checks/checks.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
 #include "scene/overlaps.h"
 
 namespace stilb::checks {

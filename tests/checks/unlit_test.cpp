@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "checks/checks.h"
+#include "materials/black.h"
+#include "materials/thin_dielectric.h"
 
 namespace stilb::checks {
 namespace {

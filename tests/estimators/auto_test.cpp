@@ -6,6 +6,7 @@
 
 #include "estimators/estimates.h"
 #include "estimators/estimator_list.h"
+#include "materials/phong.h"
 #include "support/scene_builder.h"
 #include "transport/receiver.h"
 

@@ -11,6 +11,7 @@
 #include "estimators/local/guess/guided_light.h"
 #include "estimators/receivers.h"
 #include "lights/solid_angle/projected_solid_angle.h"
+#include "materials/thin_dielectric.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
 

@@ -8,6 +8,9 @@
 #include <set>
 
 #include "estimators/receivers.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/phong.h"
 #include "sensors/place.h"
 #include "support/random_pairs.h"
 #include "support/scene_builder.h"
@@ -87,7 +90,7 @@ double body_contribution(const transport::LightVertex& node, const BodyPoint& bo
     if (cos_node <= 0 || caster.occluded(node.lifted, place_of(body, caster).lifted)) return 0;
     const double s = body.sensitivity->of(Frame::of_surface(body.axis).to_local(-w));
     const double g = cos_node * s / squared_length(way);
-    const double reflectance = std::get<Diffuse>(*node.material).reflectance.luminance();
+    const double reflectance = node.material->get_if<Diffuse>()->reflectance.luminance();
     return node.flux_lm.luminance() * reflectance / std::numbers::pi * g / (1 + g / k_per_m2);
 }
 

@@ -8,6 +8,7 @@
 
 #include "estimators/estimator.h"
 #include "estimators/estimator_list.h"
+#include "materials/phong.h"
 #include "statistics/hypothesis.h"
 #include "statistics/interval.h"
 #include "support/quadrature.h"

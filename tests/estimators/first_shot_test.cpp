@@ -8,6 +8,15 @@
 
 #include "estimators/first_shot_rooms.h"
 #include "exact/configuration_factors.h"
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 #include "stilb/error.h"
 
 namespace stilb::estimators {
@@ -177,7 +186,7 @@ TEST(FirstShot, AddsWhatIsReflectedInSeveralDirections) {
 /// Of a BRDF that splits, the diffuse part is a mean over the patch and the rest that of the position; of one
 /// that does not, all is.
 TEST(FirstShot, DiffuseVariantLeavesTheRestToShadowRays) {
-    const auto& phong = std::get<Phong>(kGlossy);
+    const auto& phong = *kGlossy.get_if<Phong>();
     const PreparedScene matt(room_of(Diffuse{phong.diffuse}), 0.8), glossy(room_of(kGlossy), 0.8),
         lobe(room_of(Phong{{}, phong.specular, phong.exponent}), 0.8),
         plastic(room_of(Plastic({Rgb::grey(0.5), 1.5, 0.2})), 0.8);

@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "estimators/receivers.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
 #include "support/scene_builder.h"
 
 namespace stilb::estimators {

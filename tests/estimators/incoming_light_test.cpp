@@ -6,6 +6,11 @@
 #include <cmath>
 
 #include "estimators/first_shot_rooms.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
 #include "support/quadrature.h"
 
 namespace stilb::estimators {
@@ -50,7 +55,7 @@ TEST(IncomingLight, ReflectsConstantLightByTheAlbedo) {
             const auto factors = reflection_factors(cube.transport, layout, 0, frame.to_world(out));
             const double expected = albedo(material, out);
             EXPECT_NEAR(double{factors[0][0]} * std::sqrt(kPi), expected, 0.006 * expected)
-                << material.index() << ' ' << theta;
+                << type_name(material) << ' ' << theta;
         }
     }
 }

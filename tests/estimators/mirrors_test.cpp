@@ -10,6 +10,8 @@
 #include "estimators/estimates.h"
 #include "estimators/estimator_list.h"
 #include "exact/closed_rooms.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
 #include "support/scene_builder.h"
 
 namespace stilb::estimators {

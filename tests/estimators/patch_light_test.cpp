@@ -6,6 +6,7 @@
 #include "estimators/patch_light/particles/particles.h"
 #include "estimators/patch_light/radiosity/radiosity.h"
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
+#include "materials/diffuse.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"
 

@@ -3,6 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include "materials/diffuse.h"
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
+#include "materials/ward.h"
+
 namespace stilb::estimators {
 namespace {
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "exact/closed_rooms.h"
+#include "materials/thin_dielectric.h"
 
 namespace stilb::exact {
 namespace {

@@ -8,6 +8,13 @@
 #include "io/import/coated_surface.h"
 #include "io/photometry/photometry_file.h"
 #include "lights/environment.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 
 namespace stilb::io {
 namespace {
@@ -23,7 +30,7 @@ SceneFile read_material(const std::string& members, const std::string& extension
 
 template <typename Model>
 Model material_of(const SceneFile& file) {
-    const auto* model = std::get_if<Model>(&file.scene.materials.at(0).material);
+    const auto* model = file.scene.materials.at(0).material.get_if<Model>();
     if (model == nullptr) throw std::runtime_error("another type of material");
     return *model;
 }
@@ -231,7 +238,7 @@ TEST(GltfMaterials, UnreadableTexturesAreOfMediumReflectance) {
     const SceneFile file = read_gltf(gltf.text());
     ASSERT_EQ(file.scene.materials.size(), 2u);
     for (const NamedMaterial& material : file.scene.materials) {
-        const auto& plastic = std::get<Plastic>(material.material);  // no metal
+        const auto& plastic = *material.material.get_if<Plastic>();  // no metal
         const double coat = Plastic({Rgb{}, 1.5, 1}).mean_reflectance().luminance();
         EXPECT_NEAR(plastic.mean_reflectance()[0], coat + (1 - coat) * 0.5, 1e-9);
         EXPECT_NEAR(plastic.mean_reflectance()[2], coat + (1 - coat) * 0.3, 1e-9);

@@ -8,6 +8,8 @@
 #include "io/import/obj/obj_scene.h"
 #include "io/import/scene_folder.h"
 #include "io/scene_text.h"
+#include "materials/phong.h"
+#include "materials/plastic.h"
 
 namespace stilb::io {
 namespace {
@@ -311,9 +313,9 @@ TEST_F(ImportTest, ObjWithOneKsForAllMaterialsHasNoBlackMirrors) {
                                           box_in_obj("c", "chrome", {4, 0, 0}, {5, 1, 1})));
     const auto& materials = file.scene.materials;
     ASSERT_EQ(materials.size(), 3u);
-    EXPECT_TRUE(std::holds_alternative<Plastic>(materials[0].material));
-    EXPECT_TRUE(std::holds_alternative<Plastic>(materials[1].material));
-    EXPECT_TRUE(std::holds_alternative<Phong>(materials[2].material));
+    EXPECT_TRUE(materials[0].material.is<Plastic>());
+    EXPECT_TRUE(materials[1].material.is<Plastic>());
+    EXPECT_TRUE(materials[2].material.is<Phong>());
 }
 
 }  // namespace

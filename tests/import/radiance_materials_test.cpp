@@ -1,6 +1,13 @@
 // Materials of Radiance against their definitions in its reference manual.
 #include <cmath>
 
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/plastic.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 #include "radiance_text.h"
 
 namespace stilb::io {
@@ -17,7 +24,7 @@ ReadMaterial read_material(const std::string& definition) {
 }
 template <typename Model>
 Model model_of(const std::string& definition) {
-    return std::get<Model>(read_material(definition).material);
+    return *read_material(definition).material.get_if<Model>();
 }
 
 void expect_rgb(const Rgb& found, const Rgb& expected) {
@@ -27,7 +34,7 @@ void expect_rgb(const Rgb& found, const Rgb& expected) {
 TEST(RadianceMaterials, MattPlasticAndMetalAreDiffuse) {
     expect_rgb(model_of<Diffuse>("void plastic m 0 0 5 .1 .2 .3 0 .2").reflectance, {{.1, .2, .3}});
     expect_rgb(model_of<Diffuse>("void metal m 0 0 5 .1 .2 .3 0 0").reflectance, {{.1, .2, .3}});
-    EXPECT_TRUE(std::holds_alternative<Black>(read_material("void plastic m 0 0 5 0 0 0 0 0").material));
+    EXPECT_TRUE(read_material("void plastic m 0 0 5 0 0 0 0 0").material.is<Black>());
 }
 
 /// The isotropic lobe of Radiance's normal.c, for a specularity of 1.
@@ -64,7 +71,7 @@ TEST(RadianceMaterials, SmoothMetalIsAMirrorAndSmoothPlasticHasACoat) {
     const double coat = s + (1 - s) * f;
     EXPECT_NEAR(coated.mean_reflectance()[0], coat + (1 - coat) * c, 0.01);
     const ReadMaterial faint = read_material("void plastic m 0 0 5 .5 .5 .5 .01 0");
-    EXPECT_NEAR(std::get<materials::Ward>(faint.material).parameters().roughness[0], 0.001, 1e-15);
+    EXPECT_NEAR(faint.material.get_if<materials::Ward>()->parameters().roughness[0], 0.001, 1e-15);
     EXPECT_TRUE(faint.warnings.empty());
 }
 
@@ -90,7 +97,7 @@ TEST(RadianceMaterials, GlassHasTheTransmittanceAndReflectanceOfRadiance) {
 
 TEST(RadianceMaterials, DielectricAndInterfaceAreGlass) {
     const ReadMaterial clear = read_material("void dielectric m 0 0 5 1 1 1 1.5 0");
-    EXPECT_EQ(std::get<materials::Dielectric>(clear.material).ior, 1.5);
+    EXPECT_EQ(clear.material.get_if<materials::Dielectric>()->ior, 1.5);
     EXPECT_TRUE(clear.warnings.empty());
     EXPECT_EQ(read_material("void dielectric m 0 0 5 .9 1 1 1.5 2").warnings,
               (std::vector<std::string>{
@@ -109,7 +116,7 @@ TEST(RadianceMaterials, MirrorsMayBeSeenAsAnotherMaterial) {
 
 TEST(RadianceMaterials, TransKeepsItsReflectionAndWarnsOfTheLostLight) {
     const ReadMaterial curtain = read_material("void trans m 0 0 7 .5 .5 .5 .1 .2 .4 .25");
-    const auto ward = std::get<materials::Ward>(curtain.material);
+    const auto ward = *curtain.material.get_if<materials::Ward>();
     expect_rgb(ward.parameters().diffuse, Rgb::grey(.5 * .9 * .6));
     expect_rgb(ward.parameters().specular, Rgb::grey(.1));
     EXPECT_EQ(curtain.warnings, (std::vector<std::string>{
@@ -135,7 +142,7 @@ TEST(RadianceMaterials, WhatIsNotSupportedIsNamedWithItsStandIn) {
     const ReadMaterial mixed = read_material(
         "void plastic a 0 0 5 .2 .2 .2 0 0\nvoid plastic b 0 0 5 .4 .4 .4 0 0\nvoid mixfunc m 4 b a v m.cal "
         "0 0");
-    expect_rgb(std::get<Diffuse>(mixed.material).reflectance, Rgb::grey(.4));
+    expect_rgb(mixed.material.get_if<Diffuse>()->reflectance, Rgb::grey(.4));
     EXPECT_EQ(mixed.warnings,
               (std::vector<std::string>{
                   "mixfunc m: mixtures are not supported; the first of both, b, stands for it."}));

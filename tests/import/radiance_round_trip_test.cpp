@@ -1,5 +1,8 @@
 // Scenes of Stilb that are exported to Radiance and read again.
 #include "io/export/export.h"
+#include "materials/diffuse.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 #include "radiance_text.h"
 #include "support/test_folder.h"
 
@@ -81,12 +84,12 @@ TEST(RadianceRoundTrip, KeepsAreasMaterialsAndFluxes) {
     const auto material = [&](std::string_view name) {
         return std::ranges::find(again.scene.materials, name, &NamedMaterial::name)->material;
     };
-    EXPECT_NEAR(std::get<Diffuse>(material("material_grey")).reflectance[2], 0.3, 1e-9);
-    const auto gloss = std::get<materials::Ward>(material("material_gloss")).parameters();
+    EXPECT_NEAR(material("material_grey").get_if<Diffuse>()->reflectance[2], 0.3, 1e-9);
+    const auto gloss = material("material_gloss").get_if<materials::Ward>()->parameters();
     EXPECT_NEAR(gloss.diffuse[0], 0.3, 1e-8);
     EXPECT_NEAR(gloss.specular[0], 0.2, 1e-9);
     EXPECT_NEAR(gloss.roughness[0], 0.1, 1e-9);
-    EXPECT_NEAR(std::get<materials::ThinDielectric>(material("material_pane")).internal_transmittance[0], 0.9,
+    EXPECT_NEAR(material("material_pane").get_if<materials::ThinDielectric>()->internal_transmittance[0], 0.9,
                 1e-9);
     // The points of the export are spheres of a millimetre.
     EXPECT_NEAR(scene::surface_area_m2(again.scene), scene::surface_area_m2(original.scene), 1e-4);

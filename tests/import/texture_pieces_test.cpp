@@ -9,6 +9,7 @@
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
 #include "io/import/imported_scene.h"
+#include "materials/diffuse.h"
 #include "support/closed_meshes.h"
 
 namespace stilb::io {
@@ -84,7 +85,7 @@ struct TexturedScene {
     const Mesh& mesh(std::size_t object) const { return std::get<Mesh>(scene.objects[object].shape); }
     Rgb reflectance(std::size_t object, std::size_t triangle) const {
         const auto& materials = scene.objects[object].materials;
-        return std::get<Diffuse>(scene.material(materials[materials.size() == 1 ? 0 : triangle])).reflectance;
+        return scene.material(materials[materials.size() == 1 ? 0 : triangle]).get_if<Diffuse>()->reflectance;
     }
     Rgb mean(std::size_t object) const {
         Rgb sum;
@@ -109,7 +110,7 @@ TEST(TexturePieces, PatternsThatFitHaveTheirColoursExactly) {
     EXPECT_EQ(textured.scene.materials.size(), 2u);
     EXPECT_EQ(textured.scene.materials[0].name, "paper (texture 1)");
     EXPECT_EQ(textured.scene.materials[1].name, "paper (texture 2)");
-    const double dark = std::get<Diffuse>(textured.scene.materials[0].material).reflectance[0];
+    const double dark = textured.scene.materials[0].material.get_if<Diffuse>()->reflectance[0];
     EXPECT_NEAR(dark, linear_of_srgb(60), 1e-12);
     EXPECT_NEAR(textured.mean(0)[0], (linear_of_srgb(60) + linear_of_srgb(200)) / 2, 1e-12);
     EXPECT_TRUE(textured.warnings.list().empty());

@@ -10,6 +10,9 @@
 #include "io/import/obj/obj_scene.h"
 #include "io/import/scene_folder.h"
 #include "io/import/textures/texture_map.h"
+#include "materials/diffuse.h"
+#include "materials/plastic.h"
+#include "materials/thin_dielectric.h"
 #include "rays/ray_caster.h"
 
 namespace stilb::io {
@@ -59,7 +62,7 @@ struct TexturedSquare {
     }
 };
 
-Rgb reflectance_of(const Material& material) { return std::get<Diffuse>(material).reflectance; }
+Rgb reflectance_of(const Material& material) { return material.get_if<Diffuse>()->reflectance; }
 
 /// The reflectance of what lies below a point of the ground.
 Rgb reflectance_at(const SceneFile& file, double x, double y) {
@@ -167,7 +170,7 @@ TEST(GltfTextures, FactorsAndCoatsStay) {
     ASSERT_EQ(coated.scene.materials.size(), 2u);
     const double coat = Plastic({Rgb{}, 1.5, 1}).mean_reflectance().luminance();
     for (std::size_t m = 0; m < 2; ++m) {
-        const auto& plastic = std::get<Plastic>(coated.scene.materials[m].material);
+        const auto& plastic = *coated.scene.materials[m].material.get_if<Plastic>();
         expect_near(plastic.mean_reflectance(),
                     Rgb::grey(coat) + (1 - coat) * linear(m == 0 ? kDark : kBright), 1e-6);
     }
@@ -334,8 +337,7 @@ TEST_F(ImportFolderTest, TexturesOfObj) {
     // A glossy surface is of one type, whatever the colour of its parts.
     const SceneFile glossy = read("Kd 1 1 1\nKs 0.5 0.5 0.5\nNs 50\nillum 2\nmap_Kd tiles.tga\n", show);
     ASSERT_EQ(glossy.scene.materials.size(), 2u);
-    for (const NamedMaterial& material : glossy.scene.materials)
-        EXPECT_TRUE(std::holds_alternative<Plastic>(material.material));
+    for (const NamedMaterial& material : glossy.scene.materials) EXPECT_TRUE(material.material.is<Plastic>());
     // The folder of import.
     const SceneFile file = read("Kd 1 1 1\nmap_Kd tiles.tga\n", show);
     const SceneFile again = read_scene_file(write_scene_folder(file, folder / "out").front());
@@ -361,7 +363,7 @@ TEST_F(ImportFolderTest, OpacitiesOfObjCutHoles) {
     write("veil.tga", tga(1, 1, {{51, 51, 51}}));
     write("tiles.mtl", "newmtl tiles\nKd 0.6 0.6 0.6\nmap_d veil.tga\n");
     const SceneFile veil = read_obj_scene(path, std::vector<std::string>{"import.scale=1", "import.up=z"});
-    const auto& pane = std::get<ThinDielectric>(veil.scene.materials.at(0).material);
+    const auto& pane = *veil.scene.materials.at(0).material.get_if<ThinDielectric>();
     EXPECT_NEAR(pane.internal_transmittance[0], 0.8, 1e-9);
 }
 

@@ -9,6 +9,14 @@
 #include <string>
 
 #include "io/results/solution_file.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 #include "math/random.h"
 #include "run/run.h"
 #include "run/solve.h"

@@ -1,5 +1,7 @@
 // The section [defaults], and maintenance factors.
 #include "io/scene_text.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
 
 namespace stilb::io {
 namespace {
@@ -63,8 +65,8 @@ type = "black"
 [lights.a]
 position = [0, 0, 1]
 )");
-    EXPECT_EQ(std::get<Diffuse>(file.scene.materials[0].material).reflectance, Rgb::grey(0.5));
-    EXPECT_TRUE(std::holds_alternative<Black>(file.scene.materials[1].material));
+    EXPECT_EQ(file.scene.materials[0].material.get_if<Diffuse>()->reflectance, Rgb::grey(0.5));
+    EXPECT_TRUE(file.scene.materials[1].material.is<Black>());
     EXPECT_NEAR(flux_of(file, 0), 5, 1e-9);
 }
 

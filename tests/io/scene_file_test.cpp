@@ -1,6 +1,10 @@
 #include "io/scene/scene_file.h"
 
 #include "io/scene_text.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
 #include "support/test_folder.h"
 
 namespace stilb::io {
@@ -90,13 +94,13 @@ TEST(SceneFile, ReadsARoom) {
     const Scene& scene = file.scene;
     EXPECT_EQ(scene.name, "A room");
     ASSERT_EQ(scene.materials.size(), 4u);
-    EXPECT_EQ(std::get<Diffuse>(scene.materials[0].material).reflectance, (Rgb{{0.7, 0.6, 0.5}}));
-    const auto& phong = std::get<Phong>(scene.materials[1].material);
+    EXPECT_EQ(scene.materials[0].material.get_if<Diffuse>()->reflectance, (Rgb{{0.7, 0.6, 0.5}}));
+    const auto& phong = *scene.materials[1].material.get_if<Phong>();
     EXPECT_EQ(phong.diffuse, Rgb::grey(0.35));
     EXPECT_EQ(phong.specular, Rgb::grey(0.10));
     EXPECT_EQ(phong.exponent, 60);
-    EXPECT_EQ(std::get<Mirror>(scene.materials[2].material).reflectance, Rgb::grey(0.9));
-    EXPECT_TRUE(std::holds_alternative<Black>(scene.materials[3].material));
+    EXPECT_EQ(scene.materials[2].material.get_if<Mirror>()->reflectance, Rgb::grey(0.9));
+    EXPECT_TRUE(scene.materials[3].material.is<Black>());
 
     ASSERT_EQ(scene.objects.size(), 4u);
     EXPECT_EQ(std::get<Box>(scene.objects[0].shape).max, (Vec3{4, 3, 2.5}));

@@ -4,6 +4,7 @@
 
 #include "io/image/picture_file.h"
 #include "io/scene_text.h"
+#include "materials/black.h"
 #include "scene/installed_power.h"
 #include "support/test_folder.h"
 
@@ -48,7 +49,7 @@ TEST(SceneLights, SphereAddsABlackObjectOfItsName) {
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].name, "a");
     EXPECT_EQ(std::get<Sphere>(scene.objects[1].shape).radius, 0.1);
-    EXPECT_TRUE(std::holds_alternative<Black>(scene.material(scene.objects[1].materials.at(0))));
+    EXPECT_TRUE(scene.material(scene.objects[1].materials.at(0)).is<Black>());
     EXPECT_EQ(std::get<AreaLight>(scene.lights[0].source).object, ObjectId{1});
     EXPECT_NEAR(flux_lm(file), 1000 * kPi * 4 * kPi * 0.01, 1e-9);
 }

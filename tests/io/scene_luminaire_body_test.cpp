@@ -4,6 +4,7 @@
 #include <fstream>
 
 #include "io/scene_text.h"
+#include "materials/black.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/test_folder.h"

@@ -1,4 +1,7 @@
 #include "io/scene_text.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/ward.h"
 
 namespace stilb::io {
 namespace {
@@ -73,8 +76,8 @@ TEST(SceneMaterials, RefusesPhongThatGainsEnergy) {
 TEST(SceneMaterials, ReadsRough) {
     const std::string rough = "type = \"rough\"\nreflectance = [0.9, 0.6, 0.3]\n";
     const Material read = read_text(material(rough + "roughness = 0.25")).scene.materials[0].material;
-    EXPECT_EQ(std::get<RoughConductor>(read).parameters().reflectance, (Rgb{{0.9, 0.6, 0.3}}));
-    EXPECT_EQ(std::get<RoughConductor>(read).parameters().roughness, 0.25);
+    EXPECT_EQ(read.get_if<RoughConductor>()->parameters().reflectance, (Rgb{{0.9, 0.6, 0.3}}));
+    EXPECT_EQ(read.get_if<RoughConductor>()->parameters().roughness, 0.25);
     const std::string allowed = " is not allowed. Allowed: from 0.001 to 1 (a mirror has type \"mirror\").";
     EXPECT_REFUSAL(material(rough + "roughness = 0"), "s.toml:4: materials.m.roughness: 0" + allowed);
     EXPECT_REFUSAL(material(rough + "roughness = 1.5"), "s.toml:4: materials.m.roughness: 1.5" + allowed);
@@ -92,13 +95,13 @@ TEST(SceneMaterials, ReadsWard) {
     const std::string ward =
         "type = \"ward\"\ndiffuse = 0.3\nspecular = [0.1, 0.2, 0.3]\nroughness = [0.05, 0.2]\n";
     const Material read = read_text(material(ward + "rotation = -30")).scene.materials[0].material;
-    EXPECT_EQ(std::get<Ward>(read).parameters().diffuse, Rgb::grey(0.3));
-    EXPECT_EQ(std::get<Ward>(read).parameters().specular, (Rgb{{0.1, 0.2, 0.3}}));
-    EXPECT_EQ(std::get<Ward>(read).parameters().roughness[0], 0.05);
-    EXPECT_EQ(std::get<Ward>(read).parameters().roughness[1], 0.2);
-    EXPECT_EQ(std::get<Ward>(read).parameters().rotation_deg, -30);
+    EXPECT_EQ(read.get_if<Ward>()->parameters().diffuse, Rgb::grey(0.3));
+    EXPECT_EQ(read.get_if<Ward>()->parameters().specular, (Rgb{{0.1, 0.2, 0.3}}));
+    EXPECT_EQ(read.get_if<Ward>()->parameters().roughness[0], 0.05);
+    EXPECT_EQ(read.get_if<Ward>()->parameters().roughness[1], 0.2);
+    EXPECT_EQ(read.get_if<Ward>()->parameters().rotation_deg, -30);
     const Material straight = read_text(material(ward)).scene.materials[0].material;
-    EXPECT_EQ(std::get<Ward>(straight).parameters().rotation_deg, 0);
+    EXPECT_EQ(straight.get_if<Ward>()->parameters().rotation_deg, 0);
     const std::string start = "type = \"ward\"\ndiffuse = 0.3\nspecular = ";
     EXPECT_REFUSAL(
         material(start + "0.2\nroughness = [0.05, 2]"),
@@ -120,9 +123,9 @@ TEST(SceneMaterials, ReadsPlastic) {
     const std::string plastic = "type = \"plastic\"\ndiffuse = [0.5, 0.4, 0.3]\n";
     const Material read =
         read_text(material(plastic + "ior = 1.5\nroughness = 0.1")).scene.materials[0].material;
-    EXPECT_EQ(std::get<Plastic>(read).parameters().diffuse, (Rgb{{0.5, 0.4, 0.3}}));
-    EXPECT_EQ(std::get<Plastic>(read).parameters().ior, 1.5);
-    EXPECT_EQ(std::get<Plastic>(read).parameters().roughness, 0.1);
+    EXPECT_EQ(read.get_if<Plastic>()->parameters().diffuse, (Rgb{{0.5, 0.4, 0.3}}));
+    EXPECT_EQ(read.get_if<Plastic>()->parameters().ior, 1.5);
+    EXPECT_EQ(read.get_if<Plastic>()->parameters().roughness, 0.1);
     EXPECT_REFUSAL(material(plastic + "ior = 0.9\nroughness = 0.1"),
                    "s.toml:4: materials.m.ior: 0.9 is not allowed. Allowed: from 1 to 4 (1.5 is common).");
     EXPECT_REFUSAL(

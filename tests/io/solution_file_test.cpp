@@ -7,6 +7,8 @@
 
 #include "io/text/compression.h"
 #include "io/text/text.h"
+#include "materials/diffuse.h"
+#include "materials/phong.h"
 #include "run/solve.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"

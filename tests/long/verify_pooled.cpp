@@ -13,6 +13,7 @@
 
 #include "agreement/scenes.h"
 #include "base/parallel.h"
+#include "materials/phong.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

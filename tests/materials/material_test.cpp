@@ -2,6 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
 #include "math/sampling.h"
 #include "support/direction_grid.h"
 

@@ -6,6 +6,14 @@
 #include <cmath>
 #include <string>
 
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 #include "math/sampling.h"
 #include "support/direction_grid.h"
 #include "support/random_pairs.h"

@@ -2,7 +2,10 @@
 
 #include <numbers>
 
+#include "materials/dielectric.h"
 #include "materials/material.h"
+#include "materials/mirror.h"
+#include "materials/thin_dielectric.h"
 
 namespace stilb::materials {
 namespace {

@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string>
 
+#include "materials/diffuse.h"
 #include "support/scene_builder.h"
 #include "transport/receiver.h"
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/black.h"
 #include "papers/estimate_series.h"
 #include "verification/verification.h"
 

@@ -3,6 +3,7 @@
 
 #include <map>
 
+#include "materials/diffuse.h"
 #include "patches/patches.h"
 #include "patches/refinement.h"
 #include "support/scene_builder.h"

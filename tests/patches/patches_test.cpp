@@ -10,6 +10,7 @@
 
 #include "geometry/harmonics/surface.h"
 #include "geometry/mesh_topology.h"
+#include "materials/mirror.h"
 #include "stilb/error.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"

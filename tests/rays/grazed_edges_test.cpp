@@ -7,6 +7,7 @@
 #include <random>
 #include <vector>
 
+#include "materials/black.h"
 #include "rays/few_triangles.h"
 #include "rays/ray_caster.h"
 #include "scene/fine_things.h"

@@ -11,6 +11,8 @@
 
 #include "geometry/harmonics/surface.h"
 #include "geometry/transform.h"
+#include "materials/black.h"
+#include "materials/diffuse.h"
 #include "stilb/error.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"

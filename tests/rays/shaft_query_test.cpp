@@ -5,6 +5,7 @@
 #include <array>
 #include <vector>
 
+#include "materials/thin_dielectric.h"
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "support/scene_builder.h"

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/black.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/lamp_in_environment.h"

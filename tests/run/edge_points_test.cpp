@@ -9,6 +9,7 @@
 
 #include "estimators/estimator_list.h"
 #include "exact/configuration_factors.h"
+#include "materials/black.h"
 #include "rays/ray_caster.h"
 #include "run/run.h"
 #include "sensors/place.h"

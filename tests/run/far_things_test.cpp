@@ -10,6 +10,7 @@
 
 #include "exact/configuration_factors.h"
 #include "exact/diffuse_cube.h"
+#include "materials/black.h"
 #include "run/run.h"
 #include "scene/overlaps.h"
 #include "statistics/hypothesis.h"

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/black.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <string>
 
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include "estimators/estimator_list.h"
+#include "materials/plastic.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

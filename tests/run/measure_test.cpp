@@ -2,6 +2,9 @@
 #include <gtest/gtest.h>
 
 #include "estimators/estimator_list.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"

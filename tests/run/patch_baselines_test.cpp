@@ -3,6 +3,10 @@
 
 #include <cmath>
 
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
 #include "run/run.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"

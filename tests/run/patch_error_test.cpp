@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "exact/sobolev.h"
+#include "materials/black.h"
 #include "run/run.h"
 #include "run/solve.h"
 #include "support/scene_builder.h"

@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include "materials/mirror.h"
+#include "materials/phong.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"

@@ -3,6 +3,9 @@
 
 #include <cmath>
 
+#include "materials/diffuse.h"
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"

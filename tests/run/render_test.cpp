@@ -3,6 +3,12 @@
 #include <cmath>
 
 #include "estimators/estimator_list.h"
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/thin_dielectric.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "stilb/error.h"

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "exact/configuration_factors.h"
+#include "materials/black.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

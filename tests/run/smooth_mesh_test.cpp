@@ -4,6 +4,8 @@
 #include <cmath>
 #include <string>
 
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

@@ -11,6 +11,10 @@
 #include <string>
 
 #include "estimators/patch_light/solution/light_vertices.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/plastic.h"
 #include "run/run.h"
 #include "run/solution_errors.h"
 #include "scene/light_groups.h"

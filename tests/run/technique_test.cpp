@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "materials/phong.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

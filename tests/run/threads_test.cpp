@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "materials/phong.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "estimators/estimator_list.h"
+#include "materials/black.h"
 #include "run/possible_light.h"
 #include "run/run.h"
 #include "support/scene_builder.h"

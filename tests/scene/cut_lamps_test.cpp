@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "geometry/mesh_topology.h"
+#include "materials/black.h"
 
 namespace stilb::scene {
 namespace {

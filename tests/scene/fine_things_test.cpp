@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "materials/black.h"
 #include "support/scene_builder.h"
 
 namespace stilb::scene {

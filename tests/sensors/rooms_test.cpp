@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/thin_dielectric.h"
 #include "sensors/areas/surface_points.h"
 #include "support/scene_builder.h"
 

@@ -7,6 +7,7 @@
 
 #include "exact/configuration_factors.h"
 #include "lights/opening_shape.h"
+#include "materials/thin_dielectric.h"
 #include "support/scene_builder.h"
 
 namespace stilb::transport {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "materials/black.h"
 #include "statistics/hypothesis.h"
 #include "statistics/interval.h"
 #include "stilb/error.h"

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "materials/black.h"
 #include "statistics/interval.h"
 #include "support/scene_builder.h"
 

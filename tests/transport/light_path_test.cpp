@@ -5,6 +5,9 @@
 #include <cmath>
 #include <limits>
 
+#include "materials/black.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
 #include "statistics/hypothesis.h"
 #include "statistics/interval.h"
 #include "support/scene_builder.h"

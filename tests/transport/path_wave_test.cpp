@@ -3,6 +3,10 @@
 
 #include <cmath>
 
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/thin_dielectric.h"
 #include "statistics/hypothesis.h"
 #include "support/moments.h"
 #include "support/scene_builder.h"

@@ -5,6 +5,11 @@
 #include <cmath>
 #include <memory>
 
+#include "materials/dielectric.h"
+#include "materials/mirror.h"
+#include "materials/plastic.h"
+#include "materials/rough_conductor.h"
+#include "materials/thin_dielectric.h"
 #include "support/scene_builder.h"
 
 namespace stilb::transport {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "exact/configuration_factors.h"
+#include "materials/thin_dielectric.h"
 #include "support/scene_builder.h"
 
 namespace stilb::walk {

@@ -7,6 +7,9 @@
 #include <cmath>
 
 #include "estimators/patch_light/solution/light_vertices.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/ward.h"
 #include "scene/light_groups.h"
 #include "stilb/error.h"
 #include "walk/container_reader.h"

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "base/rays.h"
+#include "materials/diffuse.h"
 #include "materials/shaded_surface.h"
 #include "transport/weights.h"
 
@@ -92,7 +93,7 @@ void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
 
 ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3& center) {
     const bool is_smooth = node.shading_normal != node.normal;
-    const auto* diffuse = is_smooth ? nullptr : std::get_if<Diffuse>(node.material);
+    const auto* diffuse = is_smooth ? nullptr : node.material->get_if<Diffuse>();
     const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
     ConnectedVertex result{{SegmentOrigin(node.position, node.lifted, node.normal, center),

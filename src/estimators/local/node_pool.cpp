@@ -5,6 +5,7 @@
 #include <optional>
 #include <tuple>
 
+#include "materials/diffuse.h"
 #include "materials/shaded_surface.h"
 #include "math/morton.h"
 #include "transport/weights.h"
@@ -50,7 +51,7 @@ double importance_of(const transport::LightVertex& node) {
 /// The lobe in which a vertex reflects, from two values of its BRDF: in the middle of the lobe, and far from
 /// it. Nothing where there is no distinct lobe.
 std::optional<KernelChoice::Lobe> lobe_of(const transport::LightVertex& node) {
-    if (std::holds_alternative<Diffuse>(*node.material)) return std::nullopt;
+    if (node.material->is<Diffuse>()) return std::nullopt;
     const materials::ShadedSurface surface(*node.material, node.normal, node.shading_normal);
     const Vec3 in = surface.frame().to_local(node.incoming);
     const Vec3 normal = surface.frame().to_local(node.shading_normal);

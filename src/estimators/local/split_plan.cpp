@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "estimators/local/connection.h"
+#include "materials/diffuse.h"
 #include "math/sampling.h"
 #include "transport/weights.h"
 

@@ -8,6 +8,9 @@
 #include <numeric>
 #include <utility>
 
+#include "materials/black.h"
+#include "materials/diffuse.h"
+
 namespace stilb::estimators {
 
 namespace {
@@ -44,8 +47,8 @@ void PatchTransport::add_reflection(std::uint32_t patch) {
     const Material& material = material_of(patch);
     if (is_specular(material)) return;
     mean_reflectance += double{patches.areas_m2[patch]} * reflectance_bound(material).luminance();
-    if (std::holds_alternative<Black>(material)) return;
-    const auto* diffuse = std::get_if<Diffuse>(&material);
+    if (material.is<Black>()) return;
+    const auto* diffuse = material.get_if<Diffuse>();
     if (!diffuse) {
         glossy_number[patch] = static_cast<std::uint32_t>(glossy_patches.size());
         glossy_patches.push_back(patch);

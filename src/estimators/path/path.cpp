@@ -17,6 +17,7 @@
 #include "estimators/estimator_list.h"
 #include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/first_shot.h"
+#include "materials/diffuse.h"
 #include "transport/light_path.h"
 #include "transport/path_tracer.h"
 #include "transport/receiver.h"
@@ -151,8 +152,7 @@ class PathEstimator final : public Estimator {
         double cost = of_plain;
         for (const transport::LightVertex& vertex : transport::trace_light_paths(
                  scene_, caster_, paths_.lights, max_reflections_, preparation_key_, 0, light_paths)) {
-            const bool is_plain =
-                std::holds_alternative<Diffuse>(*vertex.material) && vertex.shading_normal == vertex.normal;
+            const bool is_plain = vertex.material->is<Diffuse>() && vertex.shading_normal == vertex.normal;
             cost += (is_plain ? of_plain : of_general) / static_cast<double>(light_paths);
         }
         return cost * stands_for_ * static_cast<double>(known_part_.size());

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "io/export/mitsuba_scene.h"
+#include "materials/model_list.h"
 
 namespace stilb::io::exporting {
 namespace {
@@ -95,7 +96,7 @@ struct MitsubaMaterial {
 }  // namespace
 
 std::string mitsuba_material(const NamedMaterial& material, const std::string& id, Output& output) {
-    return std::visit(MitsubaMaterial{id, material.name, output}, material.material);
+    return materials::visit_model(MitsubaMaterial{id, material.name, output}, material.material);
 }
 
 }  // namespace stilb::io::exporting

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "io/export/radiance_scene.h"
+#include "materials/model_list.h"
 
 namespace stilb::io::exporting {
 namespace {
@@ -71,7 +72,7 @@ struct RadianceMaterial {
 }  // namespace
 
 std::string radiance_material(const NamedMaterial& material, const std::string& id, Output& output) {
-    return std::visit(RadianceMaterial{id, material.name, output}, material.material);
+    return materials::visit_model(RadianceMaterial{id, material.name, output}, material.material);
 }
 
 }  // namespace stilb::io::exporting

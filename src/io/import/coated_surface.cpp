@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "materials/plastic.h"
+#include "materials/thin_dielectric.h"
+
 namespace stilb::io {
 
 Plastic plastic_returning(const Rgb& returned, double ior, double roughness) {

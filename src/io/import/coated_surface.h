@@ -2,6 +2,8 @@
 #pragma once
 
 #include "materials/material.h"
+#include "materials/plastic.h"
+#include "materials/thin_dielectric.h"
 
 namespace stilb::io {
 

@@ -10,6 +10,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/scene/toml_text.h"
 #include "io/text/text.h"
+#include "materials/model_list.h"
 #include "scene/cut_lamps.h"
 #include "stilb/error.h"
 
@@ -200,7 +201,7 @@ TomlMembers material_tables(const Scene& scene) {
     TomlMembers tables;
     for (const MaterialId id : used) {
         const NamedMaterial& material = scene.materials[index_of(id)];
-        tables.push_back({material.name, 0, {std::visit(MaterialTable{}, material.material)}});
+        tables.push_back({material.name, 0, {materials::visit_model(MaterialTable{}, material.material)}});
     }
     return tables;
 }

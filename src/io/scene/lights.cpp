@@ -15,6 +15,7 @@
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
 #include "lights/opening_shape.h"
+#include "materials/black.h"
 #include "scene/cut_lamps.h"
 #include "stilb/error.h"
 

@@ -16,6 +16,7 @@
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
 #include "io/text/utf8.h"
+#include "materials/model_list.h"
 #include "run/options.h"
 #include "scene/glass.h"
 #include "scene/overlaps.h"

@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "materials/model_list.h"
+
 namespace stilb::walk {
 namespace {
 
@@ -33,7 +35,7 @@ Json json_of(const Rgb& rgb) { return {rgb[0], rgb[1], rgb[2]}; }
 
 Json json_of(const NamedMaterial& material) {
     Json json{{"name", material.name}};
-    std::visit(
+    materials::visit_model(
         [&]<typename M>(const M& model) {
             using Parameters = materials::ParametersOf<M>;
             const Parameters& parameters = materials::parameters_of(model);

@@ -11,6 +11,7 @@
 #include "geometry/harmonics/surface.h"
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
+#include "materials/model_list.h"
 #include "run/campaign.h"
 #include "scene/installed_power.h"
 
@@ -49,7 +50,7 @@ void add_parameters(Json& json, const Parameters& parameters) {
 
 Json material_json(const NamedMaterial& named) {
     const Material& material = named.material;
-    return std::visit(
+    return materials::visit_model(
         [&]<typename Model>(const Model& model) {
             Json json{{"name", named.name},
                       {"type", Model::kType},

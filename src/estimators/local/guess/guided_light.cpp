@@ -65,7 +65,7 @@ auto GuidedLight::divide(std::span<const transport::Receiver> receivers) const -
             continue;
         }
         const materials::SplitMaterial& parts = guess.material(*receiver.material());
-        if (parts.diffuse_reflectance().max() > 0)
+        if (parts.diffuse_reflectance.max() > 0)
             divided.even.push_back(receiver.with_material(parts.diffuse));
         if (parts.gloss) divided.general.push_back(receiver.with_material(*parts.gloss));
     }

@@ -32,7 +32,7 @@ bool is_smooth(const Shape& shape) {
 
 bool is_traced(const Material& material) {
     const materials::SplitMaterial parts = materials::split(material);
-    return is_specular(material) || (!(parts.diffuse_reflectance().max() > 0) && parts.gloss &&
+    return is_specular(material) || (!(parts.diffuse_reflectance.max() > 0) && parts.gloss &&
                                      mean_concentration(*parts.gloss) > kSharp);
 }
 
@@ -204,7 +204,7 @@ struct LightGuess::Solver {
                 }
                 const std::uint32_t side = rows.sides[row];
                 const Rgb updated = (rows.source_lx[row] + sum * per_ray) *
-                                    (guess.material(side).diffuse_reflectance() * (1 / kPi));
+                                    (guess.material(side).diffuse_reflectance * (1 / kPi));
                 change += std::abs((updated + luminance[side] * -1).luminance());
                 total += updated.luminance();
                 luminance[side] = updated;
@@ -227,7 +227,7 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
               [this](ObjectId object, MaterialId material) { return is_traced(object, material); }) {
     std::vector<std::uint32_t> sides;
     for (std::uint32_t p = 0; p < patches().count(); ++p) {
-        if (material(p).diffuse_reflectance().max() > 0)
+        if (material(p).diffuse_reflectance.max() > 0)
             sides.insert(sides.end(), {p, patches().other_side(p)});
     }
     const Solver solver{*this, caster, direct, tracer, key, monitor};

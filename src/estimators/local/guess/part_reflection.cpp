@@ -18,7 +18,7 @@ class SharedReflection {
           shares_(shares),
           gloss_(material.gloss ? *material.gloss : material.diffuse, surface.normal, surface.normal),
           outgoing_(gloss_.frame().to_local(outgoing)) {
-        const double diffuse = material.diffuse_reflectance().luminance() * shares.diffuse();
+        const double diffuse = material.diffuse_reflectance.luminance() * shares.diffuse();
         const double gloss = material.gloss ? material.gloss_reflectance().luminance() *
                                                   shares.of_mean_gloss(mean_concentration(*material.gloss))
                                             : 0;
@@ -31,7 +31,7 @@ class SharedReflection {
     materials::ScatterValue evaluate(const Vec3& in) const {
         if (in.z <= 0) return {};
         materials::ScatterValue value{
-            material_.diffuse_reflectance() * (std::numbers::inv_pi * shares_.diffuse()),
+            material_.diffuse_reflectance * (std::numbers::inv_pi * shares_.diffuse()),
             diffuse_probability_ * math::cosine_hemisphere_pdf_per_sr(in.z)};
         if (material_.gloss) {
             const auto [brdf, pdf] = gloss_.evaluate(in, outgoing_);
@@ -63,7 +63,7 @@ double continuation_probability(const materials::SplitMaterial& material, const 
     const double of_diffuse = shares.diffuse();
     if (!material.gloss) return of_diffuse;
     const double gloss = material.gloss_reflectance().luminance();
-    const double all = gloss + material.diffuse_reflectance().luminance();
+    const double all = gloss + material.diffuse_reflectance.luminance();
     const double of_gloss = shares.of_mean_gloss(mean_concentration(*material.gloss));
     return std::max(of_diffuse, all > 0 ? of_gloss * gloss / all : 0);
 }
@@ -79,7 +79,7 @@ Rgb reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& su
         sum += light->normal_illuminance_lx * brdf * (in.z * transport::balance(light->pdf_per_sr, pdf));
     }
     const double survival = transport::survival_probability(
-        Rgb::grey(1), material.diffuse_reflectance() + material.gloss_reflectance());
+        Rgb::grey(1), material.diffuse_reflectance + material.gloss_reflectance());
     if (stream.next() >= survival) return sum;
     const auto in = reflection.sample_incoming(stream);
     if (!in || in->z <= 0) return sum;

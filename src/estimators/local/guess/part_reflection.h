@@ -13,7 +13,7 @@ namespace stilb::estimators {
 /// need a tighter bound, would bring most of that.
 inline double split_of_gloss(const materials::SplitMaterial& material) {
     constexpr double without_guess = 10;
-    return material.diffuse_reflectance().max() > 0 ? 1 : without_guess;
+    return material.diffuse_reflectance.max() > 0 ? 1 : without_guess;
 }
 
 /// What gathering rays add to bounded connections with the surface (weights.h): 1 - w, for a part with

@@ -77,7 +77,7 @@ ResidualLight::ResidualLight(const Scene& scene, const rays::RayCaster& caster,
         if (guess.material(side).reflects()) sides_.push_back(side);
     }
     const auto has_guess = [&](std::uint32_t side) {
-        return guess.material(side).diffuse_reflectance().max() > 0;
+        return guess.material(side).diffuse_reflectance.max() > 0;
     };
     std::vector<double> weights(sides_.size());
     parallel_for_parts(
@@ -114,7 +114,7 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
         const auto u = stream.next_two();
         const Start start =
             start_at(side, math::sample_triangle(u[0], u[1]), 1, BoundedDirect::Part::bounded, stream);
-        const double missing = magnitude(start.missing_lx * material.diffuse_reflectance()).luminance() / kPi;
+        const double missing = magnitude(start.missing_lx * material.diffuse_reflectance).luminance() / kPi;
         const double guessed = start.guessed_cd_m2.luminance();
         square += missing * missing + kFloor * kFloor * guessed * guessed;
         if (!material.gloss) continue;
@@ -164,7 +164,7 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
     }
     start.arrival = chosen.arrival();
     const Rgb guessed = start.guessed_cd_m2 * kPi;
-    const Rgb& reflectance = guess_.material(side).diffuse_reflectance();
+    const Rgb& reflectance = guess_.material(side).diffuse_reflectance;
     for (std::size_t b = 0; b < kBands; ++b) {
         if (reflectance[b] > 0) start.missing_lx[b] -= guessed[b] / reflectance[b];
     }
@@ -178,7 +178,7 @@ Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at
     Around next{side, at, {}};
     while (next.side != patches::kNoSide) {
         const Start start = start_at(next.side, next.at, 1, BoundedDirect::Part::all, stream);
-        const Rgb& reflectance = guess_.material(next.side).diffuse_reflectance();
+        const Rgb& reflectance = guess_.material(next.side).diffuse_reflectance;
         // The factor of a step is reflectance / survival: its square times survival must be less than 1.
         const double survival = transport::survival_probability(Rgb::grey(1), reflectance);
         steps.push_back({start.missing_lx, reflectance, survival});
@@ -242,7 +242,7 @@ void ResidualLight::add(const transport::LightVertex& whole, const materials::Sp
         nodes.push_back(whole);
         nodes.back().material = &material;
     };
-    if (parts.diffuse_reflectance().max() > 0) add_part(parts.diffuse);
+    if (parts.diffuse_reflectance.max() > 0) add_part(parts.diffuse);
     if (!parts.gloss) return;
     add_part(*parts.gloss);
     nodes.back().split = split_of_gloss(parts);
@@ -261,7 +261,7 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const auto& [position, lifted, normal] = start.point;
     const Rgb missing = start.missing_lx * per_density, arriving = start.arrival.illuminance_lx * per_density;
     const double favour = favours_[choice.index];
-    const Rgb diffuse = missing * parts.diffuse_reflectance(), gloss = arriving * parts.gloss_reflectance();
+    const Rgb diffuse = missing * parts.diffuse_reflectance, gloss = arriving * parts.gloss_reflectance();
     // The direction of the light that comes in does not matter for the diffuse part.
     if (diffuse != Rgb{})
         nodes.push_back(
@@ -278,7 +278,7 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
 void ResidualLight::branch_out(const Start& start, const materials::SplitMaterial& parts,
                                const Rgb& missing_lm, const Rgb& arriving_lm, math::SampleStream& stream,
                                std::vector<transport::LightVertex>& nodes) const {
-    const double diffuse = magnitude(missing_lm * parts.diffuse_reflectance()).luminance();
+    const double diffuse = magnitude(missing_lm * parts.diffuse_reflectance).luminance();
     const double sum = diffuse + (arriving_lm * parts.gloss_reflectance()).luminance();
     if (!(sum > 0)) return;
     const Vec3& normal = start.point.normal;
@@ -287,7 +287,7 @@ void ResidualLight::branch_out(const Start& start, const materials::SplitMateria
     for (std::uint32_t i = 0; i < kBranches; ++i) {
         const bool is_diffuse = (i + first) / kBranches < diffuse / sum;
         const Rgb& incident = is_diffuse ? missing_lm : arriving_lm;
-        const Rgb& reflectance = is_diffuse ? parts.diffuse_reflectance() : parts.gloss_reflectance();
+        const Rgb& reflectance = is_diffuse ? parts.diffuse_reflectance : parts.gloss_reflectance();
         const double survival = transport::survival_probability(magnitude(incident), reflectance);
         if (stream.next() >= survival) continue;
         const auto [u1, u2] = math::even_point(i, kBranches, shift);

@@ -11,6 +11,7 @@
 #include "estimators/patch_light/first_shot/factors.h"
 #include "estimators/patch_light/first_shot/lights.h"
 #include "materials/material.h"
+#include "materials/model_list.h"
 #include "math/random.h"
 #include "patches/patches.h"
 #include "rays/ray_caster.h"
@@ -37,11 +38,11 @@ inline Rgb to_spectrum(const patches::Float3& bands) { return {{bands.x, bands.y
 
 /// True for mirrors, glass and panes, too: they have no BRDF.
 inline bool reflects_nothing(const Material& material) {
-    return std::holds_alternative<Black>(material) || is_specular(material);
+    return material.is<Black>() || is_specular(material);
 }
 /// Whether the reflected light, if any, is the same in all directions.
 inline bool reflects_alike(const Material& material) {
-    return std::holds_alternative<Diffuse>(material) || reflects_nothing(material);
+    return material.is<Diffuse>() || reflects_nothing(material);
 }
 
 /// As reflect(), for one model. It is not inlined, so that simple models are not slowed by the registers that
@@ -65,7 +66,8 @@ template <typename M, typename ForEachArrival>
 template <typename ForEachArrival>
 void reflect(const Material& any, const Frame& frame, const ForEachArrival& for_each_arrival,
              std::span<const Vec3> outs, std::span<Rgb> sums) {
-    std::visit([&](const auto& material) { reflect_by(material, frame, for_each_arrival, outs, sums); }, any);
+    materials::visit_model(
+        [&](const auto& material) { reflect_by(material, frame, for_each_arrival, outs, sums); }, any);
 }
 
 // Shadow rays.

@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/parallel.h"
+#include "materials/black.h"
 #include "materials/split_material.h"
 #include "stilb/error.h"
 
@@ -103,7 +104,7 @@ DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const patches::Patches& p
     std::vector<Rgb> diffuse;
     for (const NamedMaterial& named : scene.materials) {
         const materials::SplitMaterial parts = materials::split(named.material);
-        diffuse.push_back(parts.diffuse_reflectance() * std::numbers::inv_pi);
+        diffuse.push_back(parts.diffuse_reflectance * std::numbers::inv_pi);
         rest_.push_back(parts.gloss.value_or(Black{}));
     }
     for (std::uint32_t side = 0; side < radiance_cd_m2_.size(); ++side) {

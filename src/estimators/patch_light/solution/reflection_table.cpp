@@ -5,6 +5,8 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "materials/diffuse.h"
+#include "materials/ward.h"
 #include "math/random.h"
 #include "math/sampling.h"
 
@@ -36,7 +38,7 @@ void for_each_node(const Material& material, const Vec3& out, std::uint32_t each
 }
 
 bool is_isotropic(const Material& material) {
-    const auto* ward = std::get_if<Ward>(&material);
+    const auto* ward = material.get_if<Ward>();
     return !ward || ward->parameters().roughness[0] == ward->parameters().roughness[1];
 }
 
@@ -100,7 +102,7 @@ void integrate_factors(const Material& material, const math::ZernikeBasis& basis
 }
 
 ReflectionTable make_reflection_table(const Material& material, int degree) {
-    if (const auto* diffuse = std::get_if<Diffuse>(&material))
+    if (const auto* diffuse = material.get_if<Diffuse>())
         return {1, 1, {to_float_rgb(diffuse->reflectance * (1 / std::sqrt(kPi)))}};
     const math::ZernikeBasis basis(degree);
     ReflectionTable table{kThetas, is_isotropic(material) ? 1 : kPhis, {}};

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "io/import/gltf/gltf_surface.h"
+#include "materials/diffuse.h"
 
 namespace stilb::io::gltf {
 namespace {

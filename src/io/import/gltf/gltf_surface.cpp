@@ -6,6 +6,11 @@
 #include <cmath>
 
 #include "io/import/coated_surface.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/rough_conductor.h"
+#include "materials/ward.h"
 
 namespace stilb::io::gltf {
 namespace {

@@ -6,6 +6,10 @@
 #include <cmath>
 
 #include "io/import/coated_surface.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/phong.h"
+#include "materials/rough_conductor.h"
 
 namespace stilb::io {
 namespace {

@@ -17,6 +17,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/text/text.h"
 #include "io/text/utf8.h"
+#include "materials/diffuse.h"
 #include "stilb/error.h"
 
 namespace stilb::io {

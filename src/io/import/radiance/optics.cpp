@@ -9,6 +9,13 @@
 
 #include "io/import/radiance/primitives.h"
 #include "io/text/text.h"
+#include "materials/black.h"
+#include "materials/dielectric.h"
+#include "materials/diffuse.h"
+#include "materials/mirror.h"
+#include "materials/plastic.h"
+#include "materials/thin_dielectric.h"
+#include "materials/ward.h"
 
 namespace stilb::io::radiance {
 namespace {

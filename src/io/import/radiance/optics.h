@@ -9,6 +9,7 @@
 #include "io/import/radiance/description.h"
 #include "io/import/radiance/sky_pattern.h"
 #include "io/text/grouped_warnings.h"
+#include "materials/black.h"
 #include "materials/material.h"
 
 namespace stilb::io::radiance {

@@ -18,6 +18,7 @@
 #include "io/text/radiance_units.h"
 #include "io/text/text.h"
 #include "io/text/utf8.h"
+#include "materials/black.h"
 #include "scene/overlaps.h"
 
 namespace stilb::io::radiance {
