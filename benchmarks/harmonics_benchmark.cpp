@@ -15,7 +15,6 @@
 namespace stilb {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t kRays = 3000, kRaysBySeries = 300;
 constexpr int kRepetitions = 5;
 

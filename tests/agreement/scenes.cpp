@@ -16,7 +16,7 @@ namespace stilb {
 namespace {
 
 constexpr Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
-constexpr Vec3 kUp{0, 0, 1}, kDown{0, 0, -1};
+constexpr Vec3 kDown{0, 0, -1};
 const Rgb kWhite = Rgb::grey(1);
 
 Rgb rgb(double red, double green, double blue) { return {{red, green, blue}}; }

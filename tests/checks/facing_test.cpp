@@ -23,7 +23,7 @@ Sensor grid_at(double z, const Vec3& normal) {
     return {"desk", Grid{{1, 1, z}, {1, 0, 0}, {0, 1, 0}, {4, 4}, normal}};
 }
 
-Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
+Texts warnings_of_facing(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
     const rays::RayCaster caster(scene);
     Explained explained(scene, sensors);
     return facing_warnings(scene, caster, sensors, explained);
@@ -38,16 +38,16 @@ Scene room_with_panel(double z, bool is_up, double width = 0.6) {
 }
 
 TEST(Facing, APanelThatFacesTheCeilingIsTurned) {
-    const Texts warnings = warnings_of(room_with_panel(2.79, true));
+    const Texts warnings = warnings_of_facing(room_with_panel(2.79, true));
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("light \"1\": its front faces object \"0\", 1 cm away"), std::string::npos)
         << warnings[0];
-    EXPECT_EQ(warnings_of(room_with_panel(2.79, false)), Texts{});
+    EXPECT_EQ(warnings_of_facing(room_with_panel(2.79, false)), Texts{});
 }
 
 TEST(Facing, LightFromNarrowStripsAndFromUplightsGetsOut) {
-    EXPECT_EQ(warnings_of(room_with_panel(2.6, true)), Texts{});
-    EXPECT_EQ(warnings_of(room_with_panel(2.79, true, 0.005)), Texts{});
+    EXPECT_EQ(warnings_of_facing(room_with_panel(2.6, true)), Texts{});
+    EXPECT_EQ(warnings_of_facing(room_with_panel(2.79, true, 0.005)), Texts{});
 }
 
 /// A luminaire of a file with light downwards only.
@@ -61,16 +61,16 @@ void add_panel(Scene& scene, const Vec3& position) {
 TEST(Facing, ALuminaireAboveAFalseCeiling) {
     Scene scene = furnished_room();
     add_panel(scene, {2, 1.5, 2.65});
-    EXPECT_EQ(warnings_of(scene), Texts{});
+    EXPECT_EQ(warnings_of_facing(scene), Texts{});
     add_object(scene, Rectangle{{0, 0, 2.6}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
     EXPECT_EQ(
-        warnings_of(scene),
+        warnings_of_facing(scene),
         Texts{
             "light \"panel\": its front faces object \"2\", 5 cm away, which stops almost all of its light. "
             "Move it to the other side, or turn its aim round."});
     for (int i = 0; i < 4; ++i) scene.lights.push_back(scene.lights[1]);
     EXPECT_EQ(
-        warnings_of(scene),
+        warnings_of_facing(scene),
         Texts{
             "lights \"panel\", \"panel\", \"panel\" and 2 more: their fronts face object \"2\", 5 cm away, "
             "which stops almost all of their light. Move them to the other side, or turn their aim round."});
@@ -82,7 +82,7 @@ TEST(Facing, GapsOfTenCentimetresAreNarrow) {
         Scene scene = furnished_room();
         add_panel(scene, {2, 1.5, 2});
         add_object(scene, Rectangle{{0, 0, 2 - gap_m}, {0, 3, 0}, {4, 0, 0}}, diffuse(0.7));
-        return warnings_of(scene).size();
+        return warnings_of_facing(scene).size();
     };
     EXPECT_EQ(warnings_at(0.0999), 1u);
     EXPECT_EQ(warnings_at(0.1001), 0u);
@@ -91,11 +91,11 @@ TEST(Facing, GapsOfTenCentimetresAreNarrow) {
 TEST(Facing, AGlassCoverStopsNoLight) {
     Scene scene = room_with_panel(2.6, true);
     add_object(scene, Rectangle{{2, 0.5, 2.61}, {1.5, 0, 0}, {0, 1.5, 0}}, ThinDielectric{1.52, 1});
-    EXPECT_EQ(warnings_of(scene), Texts{});
+    EXPECT_EQ(warnings_of_facing(scene), Texts{});
 }
 
 TEST(Facing, AGridThatFacesTheTableBelowIt) {
-    const Texts warnings = warnings_of(furnished_room(), {grid_at(0.75, kDown)});
+    const Texts warnings = warnings_of_facing(furnished_room(), {grid_at(0.75, kDown)});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("sensor \"desk\": its normal points to object \"1\", 1 cm away"),
               std::string::npos)
@@ -103,12 +103,12 @@ TEST(Facing, AGridThatFacesTheTableBelowIt) {
 }
 
 TEST(Facing, WhatIsTwoCentimetresInFrontHidesTheRest) {
-    EXPECT_EQ(warnings_of(furnished_room(), {grid_at(0.7599, kDown)}).size(), 1u);
-    EXPECT_EQ(warnings_of(furnished_room(), {grid_at(0.7601, kDown)}).size(), 0u);
+    EXPECT_EQ(warnings_of_facing(furnished_room(), {grid_at(0.7599, kDown)}).size(), 1u);
+    EXPECT_EQ(warnings_of_facing(furnished_room(), {grid_at(0.7601, kDown)}).size(), 0u);
 }
 
 TEST(Facing, AGridOnTheTableThatFacesDown) {
-    const Texts warnings = warnings_of(furnished_room(), {grid_at(0.74, kDown)});
+    const Texts warnings = warnings_of_facing(furnished_room(), {grid_at(0.74, kDown)});
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("sensor \"desk\": it lies on object \"1\", but its normal points into it"),
               std::string::npos)
@@ -118,7 +118,7 @@ TEST(Facing, AGridOnTheTableThatFacesDown) {
 TEST(Facing, UsualGridsAreFine) {
     for (const Sensor& sensor : {grid_at(0.75, kUp), grid_at(0.74, kUp), grid_at(0, kUp), grid_at(0.9, kDown),
                                  grid_at(1.6, kDown), grid_at(2.8, kDown)})
-        EXPECT_EQ(warnings_of(furnished_room(), {sensor}), Texts{});
+        EXPECT_EQ(warnings_of_facing(furnished_room(), {sensor}), Texts{});
 }
 
 Texts unit_warnings_of(const Mesh& mesh) {

@@ -10,10 +10,10 @@ namespace {
 
 using Texts = std::vector<std::string>;
 
-Sensor named(const std::string& name, const Vec3& position) {
+Sensor point_named(const std::string& name, const Vec3& position) {
     return {name, IlluminancePoints{{{position, {0, 0, 1}}}}};
 }
-const Sensor kDesk = named("desk", {2, 1, 0.75});
+const Sensor kDesk = point_named("desk", {2, 1, 0.75});
 
 Scene room() {
     Scene scene;
@@ -21,7 +21,7 @@ Scene room() {
     return scene;
 }
 
-Texts warnings_of(const Scene& scene, const std::vector<Sensor>& sensors = {kDesk}) {
+Texts warnings_of_lamps(const Scene& scene, const std::vector<Sensor>& sensors = {kDesk}) {
     const rays::RayCaster caster(scene);
     return lamp_warnings(scene, caster, Enclosures(scene, caster).components(), sensors);
 }
@@ -44,11 +44,11 @@ TEST(Lamps, TwoAlikeInOnePlaceAreOneTooMany) {
     add_luminaire_at(scene, {1, 1, 2.4}, {0, 0, -1});
     add_luminaire_at(scene, {2, 1, 2.4}, {0, 0, -1});
     add_luminaire_at(scene, {1, 1, 2.4}, {0, 0, -1}, 0, Rgb::grey(0.5));
-    EXPECT_EQ(warnings_of(scene),
+    EXPECT_EQ(warnings_of_lamps(scene),
               Texts{"lights \"0\", \"2\" are alike and in one place, (1, 1, 2.4): their light "
                     "adds up. Remove all but one."});
     add_luminaire_at(scene, {2, 1, 2.4}, {0, 0, -1});
-    EXPECT_EQ(warnings_of(scene),
+    EXPECT_EQ(warnings_of_lamps(scene),
               Texts{"lights \"0\", \"2\" are alike and in one place, (1, 1, 2.4), and so are "
                     "lights in 1 more place: their light adds up. Remove all but one."});
 }
@@ -56,12 +56,12 @@ TEST(Lamps, TwoAlikeInOnePlaceAreOneTooMany) {
 TEST(Lamps, PointsAndSpheresToo) {
     Scene scene = room();
     for (int i = 0; i < 5; ++i) add_point_light(scene, {1, 1, 2}, Rgb::grey(100));
-    EXPECT_EQ(warnings_of(scene),
+    EXPECT_EQ(warnings_of_lamps(scene),
               Texts{"lights \"0\", \"1\", \"2\" and 2 more are alike and in one place, (1, 1, 2): "
                     "their light adds up. Remove all but one."});
     scene.lights.clear();
     for (int i = 0; i < 2; ++i) add_area_light(scene, Sphere{{1, 1, 2}, 0.1}, Rgb::grey(100));
-    EXPECT_EQ(warnings_of(scene).size(), 1u);
+    EXPECT_EQ(warnings_of_lamps(scene).size(), 1u);
 }
 
 TEST(Lamps, DifferentOnesInOnePlaceAreMeantSo) {
@@ -72,7 +72,7 @@ TEST(Lamps, DifferentOnesInOnePlaceAreMeantSo) {
     add_luminaire_at(scene, {1, 1, 2}, {0, 0, -1}, 0, {{1.3, 0.95, 0.6}});  // another white
     add_point_light(scene, {1, 1, 2}, Rgb::grey(100));
     add_point_light(scene, {1, 1, 2.002}, Rgb::grey(100));
-    EXPECT_EQ(warnings_of(scene), Texts{});
+    EXPECT_EQ(warnings_of_lamps(scene), Texts{});
 }
 
 TEST(Lamps, AWholeClosedMeshIsSuspicious) {
@@ -82,11 +82,11 @@ TEST(Lamps, AWholeClosedMeshIsSuspicious) {
         ". If only some of its faces are the lamp, pick them by material or mesh_group, or make them an "
         "object of "
         "their own.";
-    EXPECT_EQ(warnings_of(scene),
+    EXPECT_EQ(warnings_of_lamps(scene),
               Texts{"light \"0\": the whole of object \"1\" shines, 0.96 m2 of a closed surface" + advice});
     add_area_light(scene, Box{{3, 1, 2}, {3.6, 1.6, 2.1}}, Rgb::grey(100));
     EXPECT_EQ(
-        warnings_of(scene),
+        warnings_of_lamps(scene),
         Texts{"light \"0\": the whole of object \"1\" shines, 0.96 m2 of a closed surface; likewise \"1\"" +
               advice});
 }
@@ -99,14 +99,14 @@ TEST(Lamps, ALampAroundSensorsIsSuspicious) {
     Scene scene;
     add_area_light(scene, inward(Box{{0, 0, 0}, {4, 3, 2.5}}), Rgb::grey(100));
     EXPECT_EQ(
-        warnings_of(scene, {kDesk, named("bed", {1, 2, 0.5}), named("outside", {9, 9, 9})}),
+        warnings_of_lamps(scene, {kDesk, point_named("bed", {1, 2, 0.5}), point_named("outside", {9, 9, 9})}),
         Texts{"light \"0\": the whole of object \"0\" shines, 59 m2 of a closed surface, all around sensors "
               "\"desk\", \"bed\"" +
               advice});
     // With an open door it is no closed surface.
     auto& mesh = std::get<Mesh>(scene.objects[0].shape);
     mesh.triangles.erase(mesh.triangles.begin());
-    const Texts warnings = warnings_of(scene);
+    const Texts warnings = warnings_of_lamps(scene);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_TRUE(warnings[0].find(" m2, all around sensor \"desk\".") != std::string::npos) << warnings[0];
 }
@@ -121,7 +121,7 @@ TEST(Lamps, UsualOnesAreFine) {
     const ObjectId lamp = add_object(scene, triangulated(Box{{1, 1, 2}, {1.6, 1.6, 2.1}}), diffuse(0.5));
     const ObjectId glass = scene::cut_out(scene, lamp, std::vector<std::uint32_t>{0, 1}, "lamp (glass)");
     scene.lights.push_back({"glass", AreaLight{glass, Rgb::grey(100)}});
-    EXPECT_EQ(warnings_of(scene), Texts{});
+    EXPECT_EQ(warnings_of_lamps(scene), Texts{});
 }
 
 // Meshes whose lamps were cut out are as closed as before.
@@ -150,7 +150,7 @@ TEST(CutLamps, CloseTheirMesh) {
     EXPECT_EQ(enclosures.components()[1].total_open_edges(), 4u);
     const std::vector<Sensor> inside{kDesk};
     EXPECT_EQ(scene_warnings(scene, caster, enclosures, inside), Texts{});
-    const std::vector<Sensor> outside{named("street", {9, 1, 1})};
+    const std::vector<Sensor> outside{point_named("street", {9, 1, 1})};
     const Texts warnings = scene_warnings(scene, caster, enclosures, outside);
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("sensor \"street\": it lies outside object \"0\""), std::string::npos)
@@ -191,7 +191,7 @@ TEST(Lamps, AreasInOnePlaceAddUp) {
     const Rectangle panel{{1, 1, 2}, {0, 1, 0}, {1, 0, 0}};
     add_area_light(scene, panel, Rgb::grey(100));
     add_area_light(scene, panel, Rgb::grey(300));
-    EXPECT_EQ(warnings_of(scene),
+    EXPECT_EQ(warnings_of_lamps(scene),
               Texts{"lights \"0\", \"1\" are alike and in one place, (1.5, 1.5, 2): their "
                     "light adds up. Remove all but one."});
     const rays::RayCaster caster(scene);
@@ -199,7 +199,7 @@ TEST(Lamps, AreasInOnePlaceAddUp) {
     Scene back_to_back = room();
     add_area_light(back_to_back, panel, Rgb::grey(100));
     add_area_light(back_to_back, Rectangle{panel.corner, panel.edge_v, panel.edge_u}, Rgb::grey(100));
-    EXPECT_EQ(warnings_of(back_to_back), Texts{});
+    EXPECT_EQ(warnings_of_lamps(back_to_back), Texts{});
 }
 
 }  // namespace

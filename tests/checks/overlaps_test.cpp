@@ -22,7 +22,7 @@ Scene room_with(const std::vector<Object>& objects) {
     return scene;
 }
 
-std::vector<std::string> warnings_of(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
+std::vector<std::string> warnings_of_overlaps(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
     const rays::RayCaster caster(scene);
     return overlap_warnings(scene, caster, sensors);
 }
@@ -34,7 +34,7 @@ std::vector<Overlap> overlaps_of(const Scene& scene) {
 Rectangle on_floor(double size) { return {{1, 1, 0}, {size, 0, 0}, {0, size, 0}}; }
 
 TEST(Overlaps, ARugInTheFloor) {
-    const auto warnings = warnings_of(room_with({{"rug", on_floor(1), {kWood}}}));
+    const auto warnings = warnings_of_overlaps(room_with({{"rug", on_floor(1), {kWood}}}));
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("objects \"room\" and \"rug\" overlap in one plane"), std::string::npos)
         << warnings[0];
@@ -58,20 +58,20 @@ TEST(Overlaps, EqualTrianglesInASlantedPlane) {
 }
 
 TEST(Overlaps, NoWarningWhereBothLookAlike) {
-    EXPECT_TRUE(warnings_of(room_with({{"rug", on_floor(1), {kWall}}})).empty());
+    EXPECT_TRUE(warnings_of_overlaps(room_with({{"rug", on_floor(1), {kWall}}})).empty());
 }
 
 TEST(Overlaps, EmittersNeverLookLikeOthers) {
     Scene scene = room_with({{"tile", on_floor(1), {kWall}}});
     scene.lights.push_back({"tile", AreaLight{ObjectId{1}, Rgb::grey(10)}});
-    EXPECT_EQ(warnings_of(scene).size(), 1u);
+    EXPECT_EQ(warnings_of_overlaps(scene).size(), 1u);
 }
 
 TEST(Overlaps, ALampInTheCeilingIsTaken) {
     Scene scene = room_with({{"panel", Rectangle{{1, 1, 3}, {0, 1, 0}, {1, 0, 0}}, {kWall}}});
     scene.lights.push_back({"panel", AreaLight{ObjectId{1}, Rgb::grey(10)}});
     for (int moved = 0; moved < 2; ++moved) {
-        const auto warnings = warnings_of(scene);
+        const auto warnings = warnings_of_overlaps(scene);
         ASSERT_EQ(warnings.size(), 1u);
         EXPECT_NE(warnings[0].find("\"panel\" lies in the plane of object \"room\", at "), std::string::npos)
             << warnings[0];
@@ -120,13 +120,13 @@ TEST(Overlaps, EachPairOfManyTrianglesIsFoundOnce) {
 }
 
 TEST(Overlaps, ACabinetMayStandOnTheFloor) {
-    EXPECT_TRUE(warnings_of(room_with({{"cabinet", Box{{1, 1, 0}, {2, 2, 2}}, {kWood}}})).empty());
+    EXPECT_TRUE(warnings_of_overlaps(room_with({{"cabinet", Box{{1, 1, 0}, {2, 2, 2}}, {kWood}}})).empty());
 }
 
 TEST(Overlaps, CabinetsThatTouchMayStandOnTheFloor) {
-    EXPECT_TRUE(warnings_of(room_with({{"left", Box{{1, 1, 0}, {1.1, 2, 2}}, {kWood}},
-                                       {"middle", Box{{1, 2, 0}, {1.1, 2.04, 1}}, {kWood}},
-                                       {"right", Box{{1, 2.04, 0}, {1.1, 3, 2}}, {kWood}}}))
+    EXPECT_TRUE(warnings_of_overlaps(room_with({{"left", Box{{1, 1, 0}, {1.1, 2, 2}}, {kWood}},
+                                                {"middle", Box{{1, 2, 0}, {1.1, 2.04, 1}}, {kWood}},
+                                                {"right", Box{{1, 2.04, 0}, {1.1, 3, 2}}, {kWood}}}))
                     .empty());
 }
 
@@ -137,10 +137,10 @@ TEST(Overlaps, AHouseMayStandOnTheGroundUnderTheSky) {
     scene.objects.push_back({"house", Box{{0, 0, 0}, {8, 8, 6}}, {kWall}});
     scene.lights.push_back({"sky", EnvironmentLight{Rgb::grey(1000)}});
     const std::vector<Sensor> sensors{{"garden", IlluminancePoints{{{{-5, -5, 1}, {0, 0, 1}}}}}};
-    EXPECT_TRUE(warnings_of(scene, sensors).empty());
+    EXPECT_TRUE(warnings_of_overlaps(scene, sensors).empty());
     // A path on the ground is seen by the sensor, and there nothing else is.
     scene.objects[1] = {"path", Rectangle{{0, 0, 0}, {2, 0, 0}, {0, 20, 0}}, {kWall}};
-    EXPECT_EQ(warnings_of(scene, sensors).size(), 1u);
+    EXPECT_EQ(warnings_of_overlaps(scene, sensors).size(), 1u);
 }
 
 TEST(Overlaps, NeighboursAndParallelsDoNotOverlap) {

@@ -12,7 +12,7 @@ namespace stilb::estimators {
 namespace {
 
 constexpr std::uint64_t kMost = 32;
-constexpr int kSamples = 63;
+constexpr int kPlanSamples = 63;
 
 /// Two tiles of readings of 100 lx, half of it direct, each with one lamp that may be hidden.
 struct Problem {
@@ -36,7 +36,7 @@ struct Problem {
             pilot.variances.push_back(0);
             plans.of_receivers.push_back({1, 1, 0, 50});
         }
-        pilot.samples = kSamples;
+        pilot.samples = kPlanSamples;
         remainders.resize(2);
         for (auto& remainder : remainders) remainder.lamps.fill(1);
     }
@@ -54,7 +54,7 @@ TEST(DirectPlan, IsTheBestPowerOfTwo) {
     problem.plans.variance_per_cost = 0.1;
     for (const double variance : {1000.0, 5000.0, 100.0, 0.0}) {
         problem.set_variance(0, variance);
-        const double relative = variance / (100 * 100) + 0.25 / (kSamples + 1);
+        const double relative = variance / (100 * 100) + 0.25 / (kPlanSamples + 1);
         const auto loss = [&](std::uint64_t paths) {
             const auto m = static_cast<double>(paths);
             return kPacketWidth * (relative * m + problem.plans.variance_per_cost * kDirectRayCost / m);

@@ -24,7 +24,7 @@ constexpr double kLargestError = 0.002;
 constexpr double kLargestZ = 4;
 
 constexpr double kDiffuse = 0.2, kSpecular = 0.7;
-constexpr double kLuminance = 1000;
+constexpr double kPanelLuminance = 1000;
 /// 5 cm over the surface z = 0.
 const Sphere kLight{{0, 0, 0.1}, 0.05};
 
@@ -36,7 +36,7 @@ double brdf_per_sr(double exponent, const Vec3& in, const Vec3& out) {
 
 /// The integral of L f cos over the cone of directions in which the light is seen.
 double exact_luminance_cd_m2(const Vec3& position, const Vec3& out, double exponent) {
-    constexpr double tolerance = 1e-7 * kLuminance;
+    constexpr double tolerance = 1e-7 * kPanelLuminance;
     const Vec3 to_light = kLight.center - position;
     const Frame frame = Frame::around(normalized(to_light));
     const double half_angle = std::asin(kLight.radius / length(to_light));
@@ -44,7 +44,7 @@ double exact_luminance_cd_m2(const Vec3& position, const Vec3& out, double expon
         return std::sin(theta) * integrate_adaptively(0, 2 * kPi, tolerance, [&](double phi) {
                    const Vec3 in = frame.to_world(
                        {std::sin(theta) * std::cos(phi), std::sin(theta) * std::sin(phi), std::cos(theta)});
-                   return kLuminance * brdf_per_sr(exponent, in, out) * std::max(0.0, in.z);
+                   return kPanelLuminance * brdf_per_sr(exponent, in, out) * std::max(0.0, in.z);
                });
     });
 }
@@ -55,7 +55,7 @@ Scene sphere_over_phong(double exponent) {
     Scene scene;
     add_object(scene, Rectangle{{-1, -1, 0}, {2, 0, 0}, {0, 2, 0}},
                Phong{Rgb::grey(kDiffuse), Rgb::grey(kSpecular), exponent});
-    add_area_light(scene, kLight, Rgb::grey(kLuminance));
+    add_area_light(scene, kLight, Rgb::grey(kPanelLuminance));
     return scene;
 }
 

@@ -12,9 +12,9 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr int kReplicates = 32;
+constexpr int kGatherReplicates = 32;
 constexpr std::uint64_t kRounds = 512;
-constexpr double kLargestZ = 4.5;  // some 64 comparisons: by chance once in 2000 times
+constexpr double kLargestZOfMany = 4.5;  // some 64 comparisons: by chance once in 2000 times
 
 /// A room with a box whose side stands close to the points, one face of it a glossy one, and a mirror.
 Scene furnished_room() {
@@ -41,7 +41,7 @@ struct MeanAndError {
     double mean = 0, standard_error = 0;
 };
 
-/// What Gather adds to each reading in a round, from kReplicates independent runs.
+/// What Gather adds to each reading in a round, from kGatherReplicates independent runs.
 class Rounds {
   public:
     explicit Rounds(const Scene& scene)
@@ -55,7 +55,7 @@ class Rounds {
         const std::vector<SplitPlan> plans(points.size(), SplitPlan{k_per_m2, 1});
         const Gather gather(caster_, tracer_, tiles, plans);
         std::vector<double> sum(points.size()), squares(points.size());
-        for (std::uint64_t r = 0; r < kReplicates; ++r) {
+        for (std::uint64_t r = 0; r < kGatherReplicates; ++r) {
             ReadingSums sums(points.size());
             gather.collect({key.derived(r), 0, kRounds}, sums);
             EXPECT_EQ(sums.invalid, 0u);
@@ -67,8 +67,8 @@ class Rounds {
         }
         std::vector<MeanAndError> result;
         for (std::size_t j = 0; j < points.size(); ++j) {
-            const double mean = sum[j] / kReplicates;
-            const double variance = (squares[j] / kReplicates - mean * mean) / (kReplicates - 1);
+            const double mean = sum[j] / kGatherReplicates;
+            const double variance = (squares[j] / kGatherReplicates - mean * mean) / (kGatherReplicates - 1);
             result.push_back({mean, std::sqrt(std::max(variance, 0.0))});
         }
         return result;
@@ -100,7 +100,7 @@ TEST(Gather, PacketsOfAnySizeGiveWhatEachPointGathersAlone) {
             const std::vector<MeasuringPoint> some(points.begin(), points.begin() + count);
             const std::vector<MeanAndError> together = rounds.gather(some, k, math::RandomKey{1000});
             for (std::size_t j = 0; j < some.size(); ++j) {
-                EXPECT_LT(z(together[j], alone[j]), kLargestZ)
+                EXPECT_LT(z(together[j], alone[j]), kLargestZOfMany)
                     << "k " << k << ", point " << j << " of " << count << ": " << together[j].mean << " and "
                     << alone[j].mean;
             }

@@ -12,11 +12,11 @@
 namespace stilb::estimators {
 namespace {
 
-constexpr double kLuminance = 100;
+constexpr double kWallLuminance = 100;
 
 Scene furnace(double reflectance) {
     Scene scene;
-    add_area_light(scene, inward(Box{{0, 0, 0}, {2, 2, 2}}), Rgb::grey(kLuminance), diffuse(reflectance));
+    add_area_light(scene, inward(Box{{0, 0, 0}, {2, 2, 2}}), Rgb::grey(kWallLuminance), diffuse(reflectance));
     return scene;
 }
 
@@ -26,7 +26,7 @@ TEST_P(WhiteRoom, HasAllOfItsLight) {
     const auto& [make, reflectance] = GetParam();
     const MeasuredScene room(furnace(reflectance), {MeasuringPoint{{0.7, 1.1, 0.4}, {0, 0, 1}},
                                                     MeasuringPoint{{1, 1, 0}, {0, 0, 1}}});
-    const double exact_lx = exact::furnace_illuminance_lx(kLuminance, reflectance);
+    const double exact_lx = exact::furnace_illuminance_lx(kWallLuminance, reflectance);
     // About as many reflections for each reflectance; a sample by a guess is 32 paths.
     const double paths = make == make_guided ? 60 : 2000;
     const auto samples = static_cast<std::uint64_t>(std::max(1., paths * (1 - reflectance)));
@@ -54,7 +54,7 @@ INSTANTIATE_TEST_SUITE_P(Whitest, WhiteRoom,
 TEST(WhiteBoards, ReflectAlikeWhereverWalksEndInAnotherWay) {
     const auto readings = [](double reflectance, Maker make) {
         Scene scene;
-        add_area_light(scene, Rectangle{{0, 0, 0.2}, {0, 1, 0}, {1, 0, 0}}, Rgb::grey(kLuminance),
+        add_area_light(scene, Rectangle{{0, 0, 0.2}, {0, 1, 0}, {1, 0, 0}}, Rgb::grey(kWallLuminance),
                        diffuse(reflectance));
         add_object(scene, Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, diffuse(reflectance));
         const MeasuredScene boards(std::move(scene), {MeasuringPoint{{0.5, 0.5, 0}, {0, 0, 1}},

@@ -10,8 +10,6 @@
 namespace stilb::geometry {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 std::optional<double> first_of_all(const HarmonicCells& cells, const Vec3& origin, const Vec3& direction) {
     std::optional<double> first;
     for (std::size_t i = 0; i < cells.count(); ++i) {

@@ -9,8 +9,6 @@
 namespace stilb::geometry {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 TEST(HarmonicMarch, FindsWhatRootsFindOnASmoothSurface) {
     const HarmonicSurface surface = head_like_surface(6, 1);
     const double step = kMarchedShare * surface.greatest_radius();

@@ -9,8 +9,6 @@
 namespace stilb::geometry {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 Harmonics body_at(const Vec3& center, double scale) {
     Harmonics body(strong_surface(12, 1, 0.4, 3));
     body.center = center;

@@ -13,8 +13,6 @@
 namespace stilb::geometry {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 struct Both {
     HarmonicSurface surface;
     HarmonicCells cells{surface};

@@ -13,7 +13,6 @@
 namespace stilb::geometry {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 HarmonicSurface unit_sphere() {
     return HarmonicSurface(math::HarmonicSeries<double>(std::vector{kUnitSphere}));
 }

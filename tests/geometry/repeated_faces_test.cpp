@@ -10,13 +10,13 @@ std::vector<std::uint32_t> numbers_of(const std::vector<RepeatedFace>& faces) {
     for (const RepeatedFace& face : faces) numbers.push_back(face.triangle);
     return numbers;
 }
-using Numbers = std::vector<std::uint32_t>;
+using Indices = std::vector<std::uint32_t>;
 
 const std::vector<Vec3> kSquare{{0, 0, 1}, {2, 0, 1}, {2, 2, 1}, {0, 2, 1}};
 
 TEST(RepeatedFaces, AreAllButTheFirst) {
     const Mesh mesh{kSquare, {{0, 1, 2}, {0, 2, 3}, {1, 2, 0}, {0, 2, 3}, {0, 1, 2}}};
-    EXPECT_EQ(numbers_of(repeated_faces(mesh)), (Numbers{2, 3, 4}));
+    EXPECT_EQ(numbers_of(repeated_faces(mesh)), (Indices{2, 3, 4}));
     EXPECT_EQ(repeated_faces(mesh)[0].original, 0u);
     EXPECT_EQ(repeated_faces(mesh)[1].original, 1u);
 }
@@ -25,7 +25,7 @@ TEST(RepeatedFaces, OfPolygonsCutInAnotherWay) {
     std::vector<Vec3> twice = kSquare;
     twice.insert(twice.end(), kSquare.begin(), kSquare.end());
     EXPECT_EQ(numbers_of(repeated_faces(Mesh{twice, {{0, 1, 2}, {0, 2, 3}, {5, 6, 7}, {5, 7, 4}}})),
-              (Numbers{2, 3}));
+              (Indices{2, 3}));
 }
 
 TEST(RepeatedFaces, NotTheirOtherSidesNorNeighbours) {
@@ -35,7 +35,7 @@ TEST(RepeatedFaces, NotTheirOtherSidesNorNeighbours) {
     // A part of it, and half beside it.
     const Mesh parts{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 0, 0}, {0, -4, 0}, {0, 2, 0}, {2, -2, 0}},
                      {{0, 1, 2}, {0, 3, 5}, {0, 6, 3}}};
-    EXPECT_EQ(numbers_of(repeated_faces(parts)), Numbers{1});
+    EXPECT_EQ(numbers_of(repeated_faces(parts)), Indices{1});
 }
 
 }  // namespace

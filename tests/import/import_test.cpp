@@ -20,7 +20,7 @@ const std::vector<std::string> kPoints{
     "sensors.desk={type=\"illuminance\", positions=[[1, 1, 0.75], [2, 1.5, 0.75], [3, 2, 0.75]], normal=[0, "
     "0, 1]}"};
 
-constexpr std::string_view kRoom = R"(
+constexpr std::string_view kImportedRoom = R"(
 [materials.wall]
 type = "diffuse"
 reflectance = [0.6, 0.5, 0.4]
@@ -57,7 +57,8 @@ Mesh box_in_gltf(const Vec3& min, const Vec3& max) {
     return mesh;
 }
 
-/// kRoom as glTF; the light's intensity is luminous for white, so its colour has a luminance of 1 here.
+/// kImportedRoom as glTF; the light's intensity is luminous for white, so its colour has a luminance of 1
+/// here.
 GltfText room_in_gltf() {
     GltfText gltf;
     gltf.add_material(
@@ -79,7 +80,7 @@ GltfText room_in_gltf() {
 }
 
 TEST_F(ImportTest, GltfMeasuresAsTheSameSceneInToml) {
-    expect_same_light(read_gltf(room_in_gltf().text(), kPoints), read_text(std::string(kRoom)));
+    expect_same_light(read_gltf(room_in_gltf().text(), kPoints), read_scene_text(std::string(kImportedRoom)));
 }
 
 TEST_F(ImportTest, AFolderMeasuresAsItsGltfFile) {
@@ -179,13 +180,13 @@ TEST_F(ImportTest, RefusesToReplaceAScene) {
 TEST_F(ImportTest, ObjectsInTomlTakeMeshesFromGltf) {
     GltfText gltf = room_in_gltf();
     write("room.gltf", gltf.text());
-    std::string toml(kRoom);
+    std::string toml(kImportedRoom);
     const std::size_t box = toml.find("shape = \"box\""), table = toml.find("[objects.table]");
     toml.replace(
         box, table - box,
         "shape = \"mesh\"\nfile = \"room.gltf\"\nmaterials = { room = \"wall\", steel = \"steel\" }\n");
     toml.erase(toml.find("[objects.table]"), toml.find("[lights.bulb]") - toml.find("[objects.table]"));
-    expect_same_light(read_text(toml, folder), read_text(std::string(kRoom)));
+    expect_same_light(read_scene_text(toml, folder), read_scene_text(std::string(kImportedRoom)));
 }
 
 // OBJ
@@ -218,7 +219,7 @@ constexpr std::string_view kMtl =
 TEST_F(ImportTest, ObjWithMtlMeasuresAsTheSameSceneInToml) {
     write("room.mtl", std::string(kMtl));
     const SceneFile file = read_obj_scene(write("room.obj", room_in_obj()), kPoints);
-    std::string toml(kRoom.substr(0, kRoom.find("[lights.bulb]")));
+    std::string toml(kImportedRoom.substr(0, kImportedRoom.find("[lights.bulb]")));
     toml += R"(
 [materials.black]
 type = "black"
@@ -232,12 +233,12 @@ type = "area"
 object = "lamp"
 luminance = 828.08
 color = [1000, 800, 600]
-)" + std::string(kRoom.substr(kRoom.find("[sensors.desk]")));
+)" + std::string(kImportedRoom.substr(kImportedRoom.find("[sensors.desk]")));
     toml.replace(toml.find("type = \"rough\"\nreflectance = 0.7\nroughness = 0.16"), 48,
                  "type = \"phong\"\ndiffuse = [0.4, 0.3, 0.2]\nspecular = 0.1\nexponent = 60");
     EXPECT_NEAR(area_m2(file.scene.objects.at(0).shape), 59, 1e-6);
     EXPECT_EQ(file.scene.objects[1].name, "table");
-    expect_same_light(file, read_text(toml));
+    expect_same_light(file, read_scene_text(toml));
     const SceneFile read = read_scene_file(write_scene_folder(file, folder / "out").front());
     expect_same_readings(file, read);
 }

@@ -64,7 +64,7 @@ void expect_same_light(const SceneFile& a, const SceneFile& b, std::string_view 
     }
 }
 
-const std::vector<std::string> kPoints{
+const std::vector<std::string> kInstancePoints{
     "sensors.desk={type=\"illuminance\", positions=[[1, 1, 0.05], [2, 1.5, 0.05], [2.2, 1, 0.4]], normal=[0, "
     "0, 1]}"};
 
@@ -90,14 +90,14 @@ GltfText room_with_balls() {
 }
 
 TEST_F(InstancesTest, NodesOfGltfShareAMeshAndMeasureAsCopies) {
-    const SceneFile file = read_gltf(room_with_balls().text(), kPoints);
+    const SceneFile file = read_gltf(room_with_balls().text(), kInstancePoints);
     EXPECT_EQ(instances_in(file.scene), 3u);
     EXPECT_EQ(shared_meshes(file.scene).size(), 1u);
     for (const std::string_view method : {"auto", "path"}) expect_same_light(file, with_copies(file), method);
 }
 
 TEST_F(InstancesTest, AFolderHasTheMeshOnceAndReadsAsInstances) {
-    const SceneFile file = read_gltf(room_with_balls().text(), kPoints);
+    const SceneFile file = read_gltf(room_with_balls().text(), kInstancePoints);
     const auto files = write_scene_folder(file, folder);
     EXPECT_EQ(files.size(), 3u);  // the scene, the room and the ball
     const SceneFile read = read_scene_file(files.front());
@@ -143,7 +143,7 @@ TEST_F(InstancesTest, ObjectsOfASceneFileShareMaterialsAndParts) {
             i, i == 2 ? "a" : "b");
     // A lamp of some faces takes the ball out of the instances.
     toml += "[lights.lamp]\ntype = \"area\"\nobject = \"ball1\"\nmaterial = \"glass\"\nluminance = 100\n";
-    const Scene scene = read_text(toml, folder).scene;
+    const Scene scene = read_scene_text(toml, folder).scene;
     ASSERT_EQ(scene.objects.size(), 4u);
     EXPECT_EQ(instances_in(scene), 2u);
     EXPECT_EQ(shared_meshes(scene).size(), 1u);

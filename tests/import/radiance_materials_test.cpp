@@ -17,24 +17,24 @@ struct ReadMaterial {
     Material material;
     std::vector<std::string> warnings;
 };
-ReadMaterial read_material(const std::string& definition) {
+ReadMaterial read_radiance_material(const std::string& definition) {
     SceneFile file = read_rad(definition + "\nm sphere s 0 0 4 0 0 0 1\n");
     std::erase(file.warnings, "r.rad: no light: the scene is dark.");
     return {file.scene.material(file.scene.objects.at(0).materials.at(0)), file.warnings};
 }
 template <typename Model>
 Model model_of(const std::string& definition) {
-    return *read_material(definition).material.get_if<Model>();
+    return *read_radiance_material(definition).material.get_if<Model>();
 }
 
-void expect_rgb(const Rgb& found, const Rgb& expected) {
+void expect_bands(const Rgb& found, const Rgb& expected) {
     for (std::size_t b = 0; b < kBands; ++b) EXPECT_NEAR(found[b], expected[b], 1e-12);
 }
 
 TEST(RadianceMaterials, MattPlasticAndMetalAreDiffuse) {
-    expect_rgb(model_of<Diffuse>("void plastic m 0 0 5 .1 .2 .3 0 .2").reflectance, {{.1, .2, .3}});
-    expect_rgb(model_of<Diffuse>("void metal m 0 0 5 .1 .2 .3 0 0").reflectance, {{.1, .2, .3}});
-    EXPECT_TRUE(read_material("void plastic m 0 0 5 0 0 0 0 0").material.is<Black>());
+    expect_bands(model_of<Diffuse>("void plastic m 0 0 5 .1 .2 .3 0 .2").reflectance, {{.1, .2, .3}});
+    expect_bands(model_of<Diffuse>("void metal m 0 0 5 .1 .2 .3 0 0").reflectance, {{.1, .2, .3}});
+    EXPECT_TRUE(read_radiance_material("void plastic m 0 0 5 0 0 0 0 0").material.is<Black>());
 }
 
 /// The isotropic lobe of Radiance's normal.c, for a specularity of 1.
@@ -47,8 +47,8 @@ double lobe_per_sr(double roughness, const Vec3& in, const Vec3& out) {
 TEST(RadianceMaterials, RoughGlossHasWardsLobeAndTheRestIsDiffuse) {
     const Vec3 in = normalized(Vec3{0.3, 0.1, 1}), out = normalized(Vec3{-0.2, -0.3, 0.9});
     const double lobe = lobe_per_sr(.15, in, out);
-    const ReadMaterial plastic = read_material("void plastic m 0 0 5 .5 .4 .3 .1 .15");
-    const ReadMaterial metal = read_material("void metal m 0 0 5 .5 .4 .3 .1 .15");
+    const ReadMaterial plastic = read_radiance_material("void plastic m 0 0 5 .5 .4 .3 .1 .15");
+    const ReadMaterial metal = read_radiance_material("void metal m 0 0 5 .5 .4 .3 .1 .15");
     const Rgb of_plastic = materials::evaluate_brdf_per_sr(plastic.material, in, out);
     const Rgb of_metal = materials::evaluate_brdf_per_sr(metal.material, in, out);
     const Rgb color{{.5, .4, .3}};
@@ -60,7 +60,7 @@ TEST(RadianceMaterials, RoughGlossHasWardsLobeAndTheRestIsDiffuse) {
 }
 
 TEST(RadianceMaterials, SmoothMetalIsAMirrorAndSmoothPlasticHasACoat) {
-    expect_rgb(model_of<materials::Mirror>("void metal m 0 0 5 .9 .8 .7 1 0").reflectance, {{.9, .8, .7}});
+    expect_bands(model_of<materials::Mirror>("void metal m 0 0 5 .9 .8 .7 1 0").reflectance, {{.9, .8, .7}});
     const double s = 0.05, c = 0.5;
     const auto coated = model_of<Plastic>("void plastic m 0 0 5 .5 .5 .5 .05 0");
     const double ior = coated.parameters().ior;
@@ -70,7 +70,7 @@ TEST(RadianceMaterials, SmoothMetalIsAMirrorAndSmoothPlasticHasACoat) {
     const double k = 5.85, f = 2 * (1 - std::exp(-k) * (1 + k)) / (k * k) - 0.00202943064;
     const double coat = s + (1 - s) * f;
     EXPECT_NEAR(coated.mean_reflectance()[0], coat + (1 - coat) * c, 0.01);
-    const ReadMaterial faint = read_material("void plastic m 0 0 5 .5 .5 .5 .01 0");
+    const ReadMaterial faint = read_radiance_material("void plastic m 0 0 5 .5 .5 .5 .01 0");
     EXPECT_NEAR(faint.material.get_if<materials::Ward>()->parameters().roughness[0], 0.001, 1e-15);
     EXPECT_TRUE(faint.warnings.empty());
 }
@@ -96,10 +96,10 @@ TEST(RadianceMaterials, GlassHasTheTransmittanceAndReflectanceOfRadiance) {
 }
 
 TEST(RadianceMaterials, DielectricAndInterfaceAreGlass) {
-    const ReadMaterial clear = read_material("void dielectric m 0 0 5 1 1 1 1.5 0");
+    const ReadMaterial clear = read_radiance_material("void dielectric m 0 0 5 1 1 1 1.5 0");
     EXPECT_EQ(clear.material.get_if<materials::Dielectric>()->ior, 1.5);
     EXPECT_TRUE(clear.warnings.empty());
-    EXPECT_EQ(read_material("void dielectric m 0 0 5 .9 1 1 1.5 2").warnings,
+    EXPECT_EQ(read_radiance_material("void dielectric m 0 0 5 .9 1 1 1.5 2").warnings,
               (std::vector<std::string>{
                   "dielectric m: Stilb's glass absorbs nothing inside; its transmissivity is left out.",
                   "dielectric m: its dispersion is left out."}));
@@ -109,28 +109,28 @@ TEST(RadianceMaterials, DielectricAndInterfaceAreGlass) {
 }
 
 TEST(RadianceMaterials, MirrorsMayBeSeenAsAnotherMaterial) {
-    expect_rgb(model_of<materials::Mirror>("void mirror m 0 0 3 .9 .8 .7").reflectance, {{.9, .8, .7}});
+    expect_bands(model_of<materials::Mirror>("void mirror m 0 0 3 .9 .8 .7").reflectance, {{.9, .8, .7}});
     const std::string other = "void plastic wall 0 0 5 .5 .5 .5 0 0\nvoid mirror m 1 wall 0 3 .9 .8 .7";
-    expect_rgb(model_of<Diffuse>(other).reflectance, Rgb::grey(.5));
+    expect_bands(model_of<Diffuse>(other).reflectance, Rgb::grey(.5));
 }
 
 TEST(RadianceMaterials, TransKeepsItsReflectionAndWarnsOfTheLostLight) {
-    const ReadMaterial curtain = read_material("void trans m 0 0 7 .5 .5 .5 .1 .2 .4 .25");
+    const ReadMaterial curtain = read_radiance_material("void trans m 0 0 7 .5 .5 .5 .1 .2 .4 .25");
     const auto ward = *curtain.material.get_if<materials::Ward>();
-    expect_rgb(ward.parameters().diffuse, Rgb::grey(.5 * .9 * .6));
-    expect_rgb(ward.parameters().specular, Rgb::grey(.1));
+    expect_bands(ward.parameters().diffuse, Rgb::grey(.5 * .9 * .6));
+    expect_bands(ward.parameters().specular, Rgb::grey(.1));
     EXPECT_EQ(curtain.warnings, (std::vector<std::string>{
                                     "trans m: Stilb's surfaces transmit no scattered light: 18.0 % of the "
                                     "light, which it transmits in Radiance, are lost. Its reflection is "
                                     "kept."}));
     const auto veil = model_of<materials::ThinDielectric>("void trans m 0 0 7 .5 .5 .5 0 0 1 1");
     EXPECT_EQ(veil.ior, 1);
-    expect_rgb(veil.shares(1).transmittance, Rgb::grey(.5));
-    EXPECT_TRUE(read_material("void trans m 0 0 7 .5 .5 .5 0 0 0 0").warnings.empty());
+    expect_bands(veil.shares(1).transmittance, Rgb::grey(.5));
+    EXPECT_TRUE(read_radiance_material("void trans m 0 0 7 .5 .5 .5 0 0 0 0").warnings.empty());
 }
 
 TEST(RadianceMaterials, WhatIsNotSupportedIsNamedWithItsStandIn) {
-    const ReadMaterial textured = read_material(
+    const ReadMaterial textured = read_radiance_material(
         "void texfunc waves 4 xwave ywave zwave w.cal 0 0\nwaves colorpict wood 7 red green blue w.hdr p.cal "
         "u v "
         "0 0\nwood plastic m 0 0 5 .5 .5 .5 0 0");
@@ -139,21 +139,21 @@ TEST(RadianceMaterials, WhatIsNotSupportedIsNamedWithItsStandIn) {
                   "colorpict wood: patterns of surfaces are not supported; their materials have their own "
                   "colours everywhere.",
                   "texfunc waves: textures are not supported; the surface is left as it is."}));
-    const ReadMaterial mixed = read_material(
+    const ReadMaterial mixed = read_radiance_material(
         "void plastic a 0 0 5 .2 .2 .2 0 0\nvoid plastic b 0 0 5 .4 .4 .4 0 0\nvoid mixfunc m 4 b a v m.cal "
         "0 0");
-    expect_rgb(mixed.material.get_if<Diffuse>()->reflectance, Rgb::grey(.4));
+    expect_bands(mixed.material.get_if<Diffuse>()->reflectance, Rgb::grey(.4));
     EXPECT_EQ(mixed.warnings,
               (std::vector<std::string>{
                   "mixfunc m: mixtures are not supported; the first of both, b, stands for it."}));
     EXPECT_EQ(
-        read_material("void BSDF m 6 0 x.xml 0 0 1 . 0 0").warnings,
+        read_radiance_material("void BSDF m 6 0 x.xml 0 0 1 . 0 0").warnings,
         (std::vector<std::string>{"BSDF m: this type is not supported; a black surface stands for it."}));
     EXPECT_EQ(
-        read_material("void plastic2 m 4 1 0 0 . 0 6 .5 .5 .5 .1 .1 .4").warnings,
+        read_radiance_material("void plastic2 m 4 1 0 0 . 0 6 .5 .5 .5 .1 .1 .4").warnings,
         (std::vector<std::string>{"plastic2 m: a lobe that is the same in all directions, of the mean of "
                                   "both roughnesses, stands for it."}));
-    EXPECT_EQ(read_material("void plastic m 0 0 5 1.2 .5 .5 0 0").warnings,
+    EXPECT_EQ(read_radiance_material("void plastic m 0 0 5 1.2 .5 .5 0 0").warnings,
               (std::vector<std::string>{
                   "plastic m: the value 1.2 lies outside of 0 to 1, where energy is kept; 1 is used."}));
 }

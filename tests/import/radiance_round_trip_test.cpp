@@ -9,7 +9,7 @@
 namespace stilb::io {
 namespace {
 
-constexpr const char* kRoom = R"([materials.grey]
+constexpr const char* kRoundTripRoom = R"([materials.grey]
 type = "diffuse"
 reflectance = [0.5, 0.4, 0.3]
 [materials.gloss]
@@ -63,7 +63,7 @@ opening = "point"
 )";
 
 TEST(RadianceRoundTrip, KeepsAreasMaterialsAndFluxes) {
-    const SceneFile original = read_scene(kRoom, "room.toml", kRadianceData / "parts");
+    const SceneFile original = read_scene(kRoundTripRoom, "room.toml", kRadianceData / "parts");
     const TestFolder folder;
     export_scene(original, ExportFormat::radiance, folder);
     const SceneFile again = read_radiance_scene(folder / "scene.rad");

@@ -18,14 +18,14 @@
 namespace stilb::io {
 namespace {
 
-using Texel = std::array<std::uint8_t, 3>;
-constexpr Texel kDark{120, 60, 60}, kBright{250, 200, 100};
+using RgbTexel = std::array<std::uint8_t, 3>;
+constexpr RgbTexel kDark{120, 60, 60}, kBright{250, 200, 100};
 
-Rgb linear(const Texel& texel) { return linear_rgb({texel[0], texel[1], texel[2], 255}); }
+Rgb linear(const RgbTexel& texel) { return linear_rgb({texel[0], texel[1], texel[2], 255}); }
 
 /// Chequers of count x count texels; the top left one is bright.
-std::vector<Texel> chequers(int count) {
-    std::vector<Texel> texels;
+std::vector<RgbTexel> chequers(int count) {
+    std::vector<RgbTexel> texels;
     for (int row = 0; row < count; ++row)
         for (int column = 0; column < count; ++column)
             texels.push_back((row + column) % 2 == 0 ? kBright : kDark);

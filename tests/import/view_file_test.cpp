@@ -12,7 +12,7 @@
 namespace stilb::io {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kRadiansPerDegree = kPi / 180;
 
 ViewFile view_of(const std::string& text) { return read_view_file(text, "a.vf"); }
 std::string refusal_of_view(const std::string& text) {
@@ -34,8 +34,8 @@ TEST(ViewFile, IsACamera) {
     EXPECT_EQ(camera.fov_deg, 60);
     EXPECT_EQ(camera.projection, Projection::perspective);
     EXPECT_EQ(camera.resolution,
-              (std::array{1280, static_cast<int>(
-                                    std::lround(1280 * std::tan(20 * kDegree) / std::tan(30 * kDegree)))}));
+              (std::array{1280, static_cast<int>(std::lround(1280 * std::tan(20 * kRadiansPerDegree) /
+                                                             std::tan(30 * kRadiansPerDegree)))}));
 }
 
 TEST(ViewFile, HasRadiancesDefaults) {
@@ -53,7 +53,7 @@ TEST(ViewFile, TakesLinesOfProgramsAndFollowsTheLast) {
     EXPECT_EQ(camera.position, (Vec3{2, 1, 1}));
     EXPECT_EQ(camera.fov_deg, 50);
     // In a box of 640 x 300.
-    const double aspect = std::tan(11.25 * kDegree) / std::tan(25 * kDegree);
+    const double aspect = std::tan(11.25 * kRadiansPerDegree) / std::tan(25 * kRadiansPerDegree);
     EXPECT_EQ(camera.resolution, (std::array{640, static_cast<int>(std::lround(640 * aspect))}));
     EXPECT_EQ(view_of("-vh 40 -vv 60 -x 500 -y 500\n").camera.resolution[1], 500);
 }

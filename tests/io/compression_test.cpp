@@ -7,7 +7,7 @@
 namespace stilb::io {
 namespace {
 
-std::string sample(std::size_t size) {
+std::string sample_text(std::size_t size) {
     std::string bytes;
     for (std::uint64_t i = 0; bytes.size() < size; ++i)
         bytes += static_cast<char>(i % 3 == 0 ? math::random_block({}, i, 0)[0] & 255 : 'a');
@@ -16,14 +16,14 @@ std::string sample(std::size_t size) {
 
 TEST(Compression, GivesBackTheBytes) {
     for (const std::size_t size : {0, 1, 65536, 1'000'003}) {
-        const std::string bytes = sample(size), compressed = gzip(bytes);
+        const std::string bytes = sample_text(size), compressed = gzip(bytes);
         EXPECT_EQ(gunzip(compressed, size), bytes) << size;
         EXPECT_EQ(compressed, gzip(bytes));
     }
 }
 
 TEST(Compression, OtherSizesAndDamagesAreNoticed) {
-    const std::string compressed = gzip(sample(100'000));
+    const std::string compressed = gzip(sample_text(100'000));
     for (const std::size_t size : {std::size_t{0}, std::size_t{99'999}, std::size_t{100'001}})
         EXPECT_FALSE(gunzip(compressed, size)) << size;
     EXPECT_FALSE(gunzip(compressed + "x", 100'000));

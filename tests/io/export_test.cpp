@@ -15,7 +15,7 @@
 namespace stilb::io {
 namespace {
 
-constexpr const char* kRoom = R"([materials.grey]
+constexpr const char* kExportedRoom = R"([materials.grey]
 type = "diffuse"
 reflectance = 0.5
 [materials.black]
@@ -74,7 +74,9 @@ resolution = [64, 48]
 class Export : public testing::Test {
   protected:
     std::string content(const std::string& name) const { return read_whole_file(folder_ / name); }
-    ExportReport write(ExportFormat format) const { return export_scene(read_text(kRoom), format, folder_); }
+    ExportReport write(ExportFormat format) const {
+        return export_scene(read_scene_text(kExportedRoom), format, folder_);
+    }
 
     const TestFolder folder_;
 };
@@ -124,7 +126,7 @@ TEST_F(Export, WarningsNameWhatHasNoEqual) {
 
 TEST_F(Export, RefusesTheFolderOfTheScene) {
     const std::filesystem::path scene = folder_ / "scene.toml";
-    std::ofstream(scene) << kRoom;
+    std::ofstream(scene) << kExportedRoom;
     EXPECT_THROW(export_scene(read_scene_file(scene), ExportFormat::mitsuba, folder_), InputError);
 }
 

@@ -46,7 +46,7 @@ std::string foreign_exr(const std::vector<std::string>& names, float value,
     return stream.str();
 }
 
-std::string message_of(const std::string& content) {
+std::string message_of_exr(const std::string& content) {
     try {
         read_exr(content, "a.exr");
     } catch (const InputError& error) {
@@ -173,11 +173,13 @@ TEST(Primaries, OfAcesHaveTheirLuminances) {
 TEST(ExrFile, RefusesWhatItCannotRead) {
     const std::string good = to_exr(sample_picture());
     for (std::size_t length = 0; length < good.size(); length += good.size() / 50)
-        EXPECT_NE(message_of(good.substr(0, length)), "") << length;
-    EXPECT_EQ(message_of("BM").rfind("a.exr: not a readable OpenEXR picture", 0), 0u) << message_of("BM");
-    EXPECT_NE(message_of(foreign_exr({"A", "left.R"}, 1)).find("the file has A, left.R"), std::string::npos);
+        EXPECT_NE(message_of_exr(good.substr(0, length)), "") << length;
+    EXPECT_EQ(message_of_exr("BM").rfind("a.exr: not a readable OpenEXR picture", 0), 0u)
+        << message_of_exr("BM");
+    EXPECT_NE(message_of_exr(foreign_exr({"A", "left.R"}, 1)).find("the file has A, left.R"),
+              std::string::npos);
     const auto with = [](const std::function<void(Imf::Header&)>& change) {
-        return message_of(foreign_exr({"B", "G", "R"}, 1, change));
+        return message_of_exr(foreign_exr({"B", "G", "R"}, 1, change));
     };
     EXPECT_NE(with([](Imf::Header& header) { Imf::addWhiteLuminance(header, -1); }).find("whiteLuminance"),
               std::string::npos);
@@ -192,7 +194,7 @@ TEST(ExrFile, RefusesHugePictures) {
     const std::size_t window = content.find(std::string("dataWindow\0box2i\0", 17)) + 17 + 4;
     const int most = 200'000;
     std::memcpy(content.data() + window + 8, &most, 4);
-    EXPECT_NE(message_of(content), "");
+    EXPECT_NE(message_of_exr(content), "");
 }
 
 TEST(ExrFile, SurvivesChangedBytes) {
@@ -200,7 +202,7 @@ TEST(ExrFile, SurvivesChangedBytes) {
     for (std::size_t at = 0; at < good.size(); at += 3) {
         std::string changed = good;
         changed[at] = static_cast<char>(changed[at] ^ 0x15);
-        message_of(changed);  // whatever it says
+        message_of_exr(changed);  // whatever it says
     }
 }
 

@@ -26,7 +26,7 @@ std::string bytes(std::initializer_list<int> values) {
 const std::string kOne = bytes({128, 128, 128, 129});
 constexpr double kOneInCdM2 = 179 * 128.5 / 128;
 
-std::string message_of(const std::string& content) {
+std::string message_of_hdr(const std::string& content) {
     try {
         read_hdr(content, "a.hdr");
     } catch (const InputError& error) {
@@ -201,11 +201,11 @@ TEST(HdrFile, ReadsFlatAndOldRuns) {
 
 TEST(HdrFile, RefusesWhatItCannotRead) {
     const std::string good = to_hdr(sample_picture());
-    EXPECT_EQ(message_of(good), "");
+    EXPECT_EQ(message_of_hdr(good), "");
     for (std::size_t length = 0; length < good.size(); length += 7)
-        EXPECT_NE(message_of(good.substr(0, length)), "") << length;
+        EXPECT_NE(message_of_hdr(good.substr(0, length)), "") << length;
     const auto expect = [](const std::string& content, const std::string& part) {
-        EXPECT_NE(message_of(content).find(part), std::string::npos) << message_of(content);
+        EXPECT_NE(message_of_hdr(content).find(part), std::string::npos) << message_of_hdr(content);
     };
     expect("BM", "a.hdr:1: not a Radiance picture");
     expect(header("", "+Y 1 +X 1") + kOne, "-Y height +X width");

@@ -27,7 +27,9 @@ const std::string kFile =
     "100 80 10\n"
     "100 60 0\n";
 
-PhotometricSolid solid_of(const std::string& text) { return PhotometricSolid(read_ies(text, "a.ies").grid); }
+PhotometricSolid solid_of_ies(const std::string& text) {
+    return PhotometricSolid(read_ies(text, "a.ies").grid);
+}
 
 TEST(IesFile, ReadsNamesUnitsAndFactors) {
     const PhotometryFile file = read_ies(kFile, "a.ies");
@@ -54,7 +56,7 @@ TEST(IesFile, KnowsWhichNumbersAreFactorsInWhichVersion) {
     const auto version = [&](const std::string& header) {
         return with(with_second, "IESNA:LM-63-2002\n", header);
     };
-    const auto peak = [](const std::string& text) { return solid_of(text).peak_cd(); };
+    const auto peak = [](const std::string& text) { return solid_of_ies(text).peak_cd(); };
     EXPECT_DOUBLE_EQ(peak(version("")), 80);  // 1986
     EXPECT_DOUBLE_EQ(peak(version("IESNA91\n")), 80);
     EXPECT_DOUBLE_EQ(peak(version("IESNA:LM-63-1995\n")), 100);
@@ -195,7 +197,7 @@ TEST(IesFile, UnfoldsTheSymmetriesOfTypeC) {
     };
     // Intensity at gamma = 90 in eight planes: 45 degrees apart, from C0 on.
     const auto around = [](const std::string& text) {
-        const PhotometricSolid solid = solid_of(text);
+        const PhotometricSolid solid = solid_of_ies(text);
         std::vector<double> result;
         for (int c = 0; c < 360; c += 45) {
             result.push_back(std::round(1e6 * solid.intensity_cd(towards(c, 90))) / 1e6);
@@ -218,14 +220,14 @@ TEST(IesFile, PlacesTypesAAndB) {
     const auto text = [&](const char* type) {
         return "TILT=NONE\n1 -1 1 3 3 " + std::string(type) + numbers.substr(2);
     };
-    const PhotometricSolid a = solid_of(text("3"));  // planes of H: vertical angles -90, 0, 90 in each
+    const PhotometricSolid a = solid_of_ies(text("3"));  // planes of H: vertical angles -90, 0, 90 in each
     EXPECT_NEAR(a.intensity_cd(towards(0, 90)), 5, 1e-12);
     EXPECT_NEAR(a.intensity_cd(towards(90, 90)), 2, 1e-12);
     EXPECT_NEAR(a.intensity_cd(towards(270, 90)), 8, 1e-12);
     EXPECT_EQ(a.intensity_cd(towards(180, 90)), 0);
     EXPECT_NEAR(a.intensity_cd(towards(0, 1e-9)), 4, 1e-9);
     EXPECT_NEAR(a.intensity_cd(towards(0, 180 - 1e-9)), 6, 1e-9);
-    const PhotometricSolid b = solid_of(text("2"));  // V = 0 is the nadir, V = 90 is C0, H = 90 is C270
+    const PhotometricSolid b = solid_of_ies(text("2"));  // V = 0 is the nadir, V = 90 is C0, H = 90 is C270
     EXPECT_NEAR(b.intensity_cd({0, 0, 1}), 5, 1e-12);
     EXPECT_NEAR(b.intensity_cd(towards(0, 90)), 6, 1e-12);
     EXPECT_NEAR(b.intensity_cd(towards(180, 90)), 4, 1e-12);

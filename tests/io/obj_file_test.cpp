@@ -9,15 +9,15 @@
 namespace stilb::io {
 namespace {
 
-const std::string kSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
+const std::string kObjSquare = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
 
 using Triangles = std::vector<Triangle>;
 
-MeshFile read(const std::string& content) { return read_obj(content, "room"); }
+MeshFile read_obj_text(const std::string& content) { return read_obj(content, "room"); }
 
 TEST(ObjFile, triangle) {
     const MeshFile file =
-        read("# a comment\nv 1 2.5 -3e-1\nv +4 5 6 0.5 0.5 0.5\n\tv  7 8 9 1.0 \n\nf 1 2 3\n");
+        read_obj_text("# a comment\nv 1 2.5 -3e-1\nv +4 5 6 0.5 0.5 0.5\n\tv  7 8 9 1.0 \n\nf 1 2 3\n");
     EXPECT_EQ(file.mesh.vertices, (std::vector<Vec3>{{1, 2.5, -0.3}, {4, 5, 6}, {7, 8, 9}}));
     EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
     EXPECT_EQ(file.degenerate_triangles, 0U);
@@ -27,7 +27,7 @@ TEST(ObjFile, triangle) {
 
 TEST(ObjFile, what_is_written_is_read) {
     const Mesh mesh{{{0, 0, 0}, {1.25, 0, 0}, {0, -3e-7, 1}, {1, 123456, 1}}, {{0, 1, 2}, {3, 2, 1}}};
-    const MeshFile file = read(to_obj(mesh));
+    const MeshFile file = read_obj_text(to_obj(mesh));
     EXPECT_EQ(file.mesh.vertices, mesh.vertices);
     EXPECT_EQ(file.mesh.triangles, mesh.triangles);
 }
@@ -37,12 +37,14 @@ TEST(ObjFile, all_forms_of_corners) {
     for (int i = 0; i < 9; ++i) nine_of_each += "vt 0 0\nvn 0 0 1\n";
     for (const std::string face : {"1 2 3", "1/7 2/8 3/9", "1//7 2//8 3//9", "1/7/1 2/8/1 3/9/1", "-4 -3 -2",
                                    "1/ 2/ 3/", "-4/-1/-1 2 3", "1 2 3 # the floor"}) {
-        EXPECT_EQ(read(kSquare + nine_of_each + "f " + face).mesh.triangles, (Triangles{{0, 1, 2}})) << face;
+        EXPECT_EQ(read_obj_text(kObjSquare + nine_of_each + "f " + face).mesh.triangles,
+                  (Triangles{{0, 1, 2}}))
+            << face;
     }
 }
 
 TEST(ObjFile, texture_coordinates_are_kept_if_wanted) {
-    const std::string text = kSquare + "vt 0 0.5 0\nvt 1\nvt 0.25 -2\nf 1/1 2/2 3/3 4/-1\nf 1 2 3\n";
+    const std::string text = kObjSquare + "vt 0 0.5 0\nvt 1\nvt 0.25 -2\nf 1/1 2/2 3/3 4/-1\nf 1 2 3\n";
     const MeshFile file = read_obj(text, "room", TextureCoordinates::kept);
     EXPECT_EQ(file.texture_coordinates, (std::vector<std::array<float, 2>>{{0, 0.5f}, {1, 0}, {0.25f, -2}}));
     ASSERT_EQ(file.corner_coordinates.size(), file.mesh.triangles.size());
@@ -52,13 +54,14 @@ TEST(ObjFile, texture_coordinates_are_kept_if_wanted) {
             EXPECT_EQ(file.corner_coordinates[t][i], of_vertex[file.mesh.triangles[t][i]]);
     }
     EXPECT_EQ(file.corner_coordinates[2], (Triangle{kNoCoordinates, kNoCoordinates, kNoCoordinates}));
-    EXPECT_TRUE(read(text).texture_coordinates.empty());
-    EXPECT_TRUE(read(text).corner_coordinates.empty());
+    EXPECT_TRUE(read_obj_text(text).texture_coordinates.empty());
+    EXPECT_TRUE(read_obj_text(text).corner_coordinates.empty());
 }
 
 TEST(ObjFile, normals_of_corners) {
     const std::string normals = "vn 0 0 1\nvn 0 3 4\nvn 0 0 0\n";
-    const Mesh mesh = read(kSquare + normals + "f 1//1 2//-2 3//2 4//1\nf 1 2 3\nf 2//3 3//1 4//1\n").mesh;
+    const Mesh mesh =
+        read_obj_text(kObjSquare + normals + "f 1//1 2//-2 3//2 4//1\nf 1 2 3\nf 2//3 3//1 4//1\n").mesh;
     EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{0, 0, 1}, {0, 0.6, 0.8}, {}}));
     ASSERT_EQ(mesh.corner_normals.size(), mesh.triangles.size());
     const std::array<std::uint32_t, 4> of_vertex{0, 1, 1, 0};
@@ -71,24 +74,24 @@ TEST(ObjFile, normals_of_corners) {
 }
 
 TEST(ObjFile, faces_without_normals_may_come_first) {
-    const Mesh mesh = read(kSquare + "f 1 2 3\nvn 0 0 1\nf 1//1 3//1 4//1\nf 2 3 4\n").mesh;
+    const Mesh mesh = read_obj_text(kObjSquare + "f 1 2 3\nvn 0 0 1\nf 1//1 3//1 4//1\nf 2 3 4\n").mesh;
     EXPECT_EQ(mesh.corner_normals,
               (Triangles{{kNoNormal, kNoNormal, kNoNormal}, {0, 0, 0}, {kNoNormal, kNoNormal, kNoNormal}}));
 }
 
 TEST(ObjFile, normals_that_no_face_names_are_left_out) {
-    const Mesh mesh = read(kSquare + "vn 0 0 1\nf 1 2 3\nf 1/ 2/ 3/\n").mesh;
+    const Mesh mesh = read_obj_text(kObjSquare + "vn 0 0 1\nf 1 2 3\nf 1/ 2/ 3/\n").mesh;
     EXPECT_TRUE(mesh.normals.empty());
     EXPECT_TRUE(mesh.corner_normals.empty());
 }
 
 TEST(ObjFile, relative_numbers_count_from_the_face) {
-    const MeshFile file = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 -3\n");
+    const MeshFile file = read_obj_text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\nv 5 5 5\nf -1 -2 -3\n");
     EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}, {3, 2, 1}}));
 }
 
 TEST(ObjFile, concave_polygon_keeps_its_area_and_front) {
-    const MeshFile file = read("v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 1 2 3 4\n");
+    const MeshFile file = read_obj_text("v 0 0 0\nv 4 0 0\nv 1 1 0\nv 0 4 0\nf 1 2 3 4\n");
     ASSERT_EQ(file.mesh.triangles.size(), 2U);
     double area = 0;
     for (const Triangle& t : file.mesh.triangles) {
@@ -101,7 +104,7 @@ TEST(ObjFile, concave_polygon_keeps_its_area_and_front) {
 }
 
 TEST(ObjFile, line_ends_and_joined_lines) {
-    const MeshFile file = read(
+    const MeshFile file = read_obj_text(
         "v 0 0 0\r\nv 1 0 \\\r\n0\r\n# C:\\rooms\\\r\nv 0 1 0\r\nusemtl wall paint \r\nf 1 \\\r\n 2\\\r\n "
         "3\r\n");
     EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
@@ -109,15 +112,15 @@ TEST(ObjFile, line_ends_and_joined_lines) {
 }
 
 TEST(ObjFile, byte_order_mark_and_names_in_utf8) {
-    EXPECT_EQ(read("\xef\xbb\xbf" + kSquare + "o T\xc3\xbcr\nf 1 2 3").group_names,
+    EXPECT_EQ(read_obj_text("\xef\xbb\xbf" + kObjSquare + "o T\xc3\xbcr\nf 1 2 3").group_names,
               std::vector<std::string>{"T\xc3\xbcr"});
 }
 
 TEST(ObjFile, materials_and_groups_of_each_triangle) {
-    const MeshFile file =
-        read(kSquare +
-             "f 1 2 3\nusemtl wood\ng desk\nf 1 2 3 4\nusemtl unused\nusemtl steel\no lamp\nf 1 2 4\n"
-             "usemtl wood\nf 2 3 4\n");
+    const MeshFile file = read_obj_text(
+        kObjSquare +
+        "f 1 2 3\nusemtl wood\ng desk\nf 1 2 3 4\nusemtl unused\nusemtl steel\no lamp\nf 1 2 4\n"
+        "usemtl wood\nf 2 3 4\n");
     EXPECT_EQ(file.material_names, (std::vector<std::string>{"", "wood", "steel"}));
     EXPECT_EQ(file.material_of_triangle, (std::vector<std::uint32_t>{0, 1, 1, 2, 1}));
     EXPECT_EQ(file.group_names, (std::vector<std::string>{"", "desk", "lamp"}));
@@ -127,13 +130,13 @@ TEST(ObjFile, materials_and_groups_of_each_triangle) {
 TEST(ObjFile, other_statements_change_nothing) {
     const std::string others =
         "mtllib a.mtl\nvt 0 0\nvn 0 0 1\nvp 0\ns off\nl 1 2\np 1\nlod 3\ncstype bezier\nend\n";
-    EXPECT_EQ(read(others + kSquare + "f 1 2 3\n").mesh.triangles.size(), 1U);
+    EXPECT_EQ(read_obj_text(others + kObjSquare + "f 1 2 3\n").mesh.triangles.size(), 1U);
 }
 
 TEST(ObjFile, degenerate_triangles_are_left_out_and_counted) {
     // A corner twice, corners on a line (also where rounding keeps them off it), and one good triangle.
-    const MeshFile file = read(
-        kSquare +
+    const MeshFile file = read_obj_text(
+        kObjSquare +
         "v 0.1 0.1 0.1\nv 0.3 0.3 0.3\nv 0.7 0.7 0.7\nf 1 1 2\nf 5 6 7\nusemtl good\nf 1 2 3\nf 1 2 2 3\n");
     EXPECT_EQ(file.degenerate_triangles, 3U);
     EXPECT_EQ(file.mesh.triangles.size(), 2U);
@@ -141,57 +144,60 @@ TEST(ObjFile, degenerate_triangles_are_left_out_and_counted) {
 }
 
 TEST(ObjFile, thin_triangles_stay) {
-    EXPECT_EQ(read("v 0 0 0\nv 10000 0 0\nv 0 0.0001 0\nf 1 2 3").mesh.triangles.size(), 1U);
-    EXPECT_EQ(read("v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3").mesh.triangles.size(), 1U);
+    EXPECT_EQ(read_obj_text("v 0 0 0\nv 10000 0 0\nv 0 0.0001 0\nf 1 2 3").mesh.triangles.size(), 1U);
+    EXPECT_EQ(read_obj_text("v 0 0 0\nv 1e-9 0 0\nv 0 1e-9 0\nf 1 2 3").mesh.triangles.size(), 1U);
 }
 
-void expect_refusal(const std::string& content, const std::string& message) {
+void expect_obj_refusal(const std::string& content, const std::string& message) {
     EXPECT_EQ(refusal(read_obj, content), "room" + message);
 }
 
 TEST(ObjFile, wrong_vertices) {
     const std::string rule = "; it must be a finite number, at most 1e30 in size";
-    expect_refusal("v 0 0 0\nv 1 nan 0\n", ":2: the vertex's y is \"nan\"" + rule);
-    expect_refusal("v -inf 0 0\n", ":1: the vertex's x is \"-inf\"" + rule);
-    expect_refusal("v 0 0 1e999\n", ":1: the vertex's z is \"1e999\"" + rule);
-    expect_refusal("v 0 0 -2e30\n", ":1: the vertex's z is \"-2e30\"" + rule);
-    expect_refusal("v 0 1,5 0\n", ":1: the vertex's y is \"1,5\"" + rule);
-    expect_refusal("v 0 0 0x10\n", ":1: the vertex's z is \"0x10\"" + rule);
-    expect_refusal("v 0 0 +-1\n", ":1: the vertex's z is \"+-1\"" + rule);
-    expect_refusal("v 0 0 1.2.3\n", ":1: the vertex's z is \"1.2.3\"" + rule);
-    expect_refusal("v 0 1\n", ":1: the vertex has 2 coordinates; it needs three: v x y z");
-    expect_refusal("v # none\n", ":1: the vertex has 0 coordinates; it needs three: v x y z");
+    expect_obj_refusal("v 0 0 0\nv 1 nan 0\n", ":2: the vertex's y is \"nan\"" + rule);
+    expect_obj_refusal("v -inf 0 0\n", ":1: the vertex's x is \"-inf\"" + rule);
+    expect_obj_refusal("v 0 0 1e999\n", ":1: the vertex's z is \"1e999\"" + rule);
+    expect_obj_refusal("v 0 0 -2e30\n", ":1: the vertex's z is \"-2e30\"" + rule);
+    expect_obj_refusal("v 0 1,5 0\n", ":1: the vertex's y is \"1,5\"" + rule);
+    expect_obj_refusal("v 0 0 0x10\n", ":1: the vertex's z is \"0x10\"" + rule);
+    expect_obj_refusal("v 0 0 +-1\n", ":1: the vertex's z is \"+-1\"" + rule);
+    expect_obj_refusal("v 0 0 1.2.3\n", ":1: the vertex's z is \"1.2.3\"" + rule);
+    expect_obj_refusal("v 0 1\n", ":1: the vertex has 2 coordinates; it needs three: v x y z");
+    expect_obj_refusal("v # none\n", ":1: the vertex has 0 coordinates; it needs three: v x y z");
 }
 
 /// As modellers leave them behind.
 TEST(ObjFile, faces_of_one_or_two_corners_are_left_out_and_counted) {
-    const MeshFile file = read(kSquare + "f 1 2\nf 1 2 3\nf 4\n");
+    const MeshFile file = read_obj_text(kObjSquare + "f 1 2\nf 1 2 3\nf 4\n");
     EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
     EXPECT_EQ(file.degenerate_triangles, 2U);
-    expect_refusal(kSquare + "f 1 2\n",
-                   ": no triangle found (1 without area left out), so there is no surface; an "
-                   "OBJ file needs faces, such as: f 1 2 3");
+    expect_obj_refusal(kObjSquare + "f 1 2\n",
+                       ": no triangle found (1 without area left out), so there is no surface; an "
+                       "OBJ file needs faces, such as: f 1 2 3");
 }
 
 TEST(ObjFile, wrong_faces) {
-    expect_refusal(kSquare + "f", ":5: the face has no corners; it needs three or more: f 1 2 3");
-    expect_refusal(kSquare + "f # none\n", ":5: the face has no corners; it needs three or more: f 1 2 3");
+    expect_obj_refusal(kObjSquare + "f", ":5: the face has no corners; it needs three or more: f 1 2 3");
+    expect_obj_refusal(kObjSquare + "f # none\n",
+                       ":5: the face has no corners; it needs three or more: f 1 2 3");
     const std::string range = ", but 4 vertices stand before it; they count from 1, or backwards from -1";
-    expect_refusal(kSquare + "f 1 2 5\nv 9 9 9\n", ":5: the face's corner \"5\" names vertex 5" + range);
-    expect_refusal(kSquare + "vt 0 0\nf 1 2/1 -5/1\n",
-                   ":6: the face's corner \"-5/1\" names vertex -5" + range);
-    expect_refusal(kSquare + "f 0 1 2\n", ":5: the face's corner \"0\" names vertex 0" + range);
-    expect_refusal(kSquare + "f 1 2 4294967297\n",
-                   ":5: the face's corner \"4294967297\" names vertex 4294967297" + range);
+    expect_obj_refusal(kObjSquare + "f 1 2 5\nv 9 9 9\n",
+                       ":5: the face's corner \"5\" names vertex 5" + range);
+    expect_obj_refusal(kObjSquare + "vt 0 0\nf 1 2/1 -5/1\n",
+                       ":6: the face's corner \"-5/1\" names vertex -5" + range);
+    expect_obj_refusal(kObjSquare + "f 0 1 2\n", ":5: the face's corner \"0\" names vertex 0" + range);
+    expect_obj_refusal(kObjSquare + "f 1 2 4294967297\n",
+                       ":5: the face's corner \"4294967297\" names vertex 4294967297" + range);
     const std::string form = "; it must be a vertex number, alone or as v/vt, v//vn or v/vt/vn";
     for (const std::string corner :
          {"x", "1.5", "/1", "1/2/3/4", "1/a", "1e0", "99999999999999999999", "--1"})
-        expect_refusal(kSquare + "\nf 1 2 " + corner, ":6: the face's corner is \"" + corner + "\"" + form);
+        expect_obj_refusal(kObjSquare + "\nf 1 2 " + corner,
+                           ":6: the face's corner is \"" + corner + "\"" + form);
 }
 
 /// What a surface has beside its shape does not matter where it is wrong.
 TEST(ObjFile, normals_and_coordinates_that_do_not_exist_are_left_out) {
-    const std::string start = kSquare + "vt 0 0\nvn 0 0 1\nvn 1 0 0\nf 1/1/1 2/1/1 ";
+    const std::string start = kObjSquare + "vt 0 0\nvn 0 0 1\nvn 1 0 0\nf 1/1/1 2/1/1 ";
     const std::string remark =
         "line 8: the face's corner \"{}\" names a normal or a texture coordinate that "
         "does not stand before it; 1 such numbers are left out.";
@@ -202,8 +208,8 @@ TEST(ObjFile, normals_and_coordinates_that_do_not_exist_are_left_out) {
     }
     // The last that exist.
     for (const std::string corner : {"3/1/2", "3/-1/-2"})
-        EXPECT_TRUE(read(start + corner).remarks.empty()) << corner;
-    const MeshFile without = read(kSquare + "f 1/1 2/2 3/3 4/4\nf 1//7 2//7 3//7\n");
+        EXPECT_TRUE(read_obj_text(start + corner).remarks.empty()) << corner;
+    const MeshFile without = read_obj_text(kObjSquare + "f 1/1 2/2 3/3 4/4\nf 1//7 2//7 3//7\n");
     EXPECT_EQ(without.mesh.triangles.size(), 3U);
     EXPECT_TRUE(without.mesh.normals.empty());
     ASSERT_EQ(without.remarks.size(), 1U);
@@ -212,14 +218,14 @@ TEST(ObjFile, normals_and_coordinates_that_do_not_exist_are_left_out) {
 
 TEST(ObjFile, normals_that_are_no_numbers_count_as_missing) {
     for (const std::string normal : {"0 nan 1", "-nan(ind) 0 1", "0 1", "inf 0 0", "1e999 0 0", "x y z"}) {
-        const MeshFile file = read(kSquare + "vn 0 0 1\nvn " + normal + "\nf 1//1 2//2 3//1\n");
+        const MeshFile file = read_obj_text(kObjSquare + "vn 0 0 1\nvn " + normal + "\nf 1//1 2//2 3//1\n");
         ASSERT_EQ(file.mesh.normals.size(), 2U) << normal;
         EXPECT_EQ(file.mesh.normals[1], Vec3{}) << normal;
     }
 }
 
 TEST(ObjFile, unknown_statements_are_left_out_and_named) {
-    const MeshFile file = read("vw 1\n" + kSquare + "vw 2\nfoo bar\nf 1 2 3\n");
+    const MeshFile file = read_obj_text("vw 1\n" + kObjSquare + "vw 2\nfoo bar\nf 1 2 3\n");
     EXPECT_EQ(file.mesh.triangles.size(), 1U);
     EXPECT_EQ(file.remarks, (std::vector<std::string>{
                                 "line 1: \"vw\" is not an OBJ statement; such lines are left out.",
@@ -227,52 +233,54 @@ TEST(ObjFile, unknown_statements_are_left_out_and_named) {
 }
 
 TEST(ObjFile, names_in_latin_1_become_utf8) {
-    const MeshFile file = read(
+    const MeshFile file = read_obj_text(
         "g K\xfc"
         "che\nusemtl W\xe4nde\n" +
-        kSquare + "f 1 2 3\n");
+        kObjSquare + "f 1 2 3\n");
     EXPECT_EQ(file.group_names, std::vector<std::string>{"K\xc3\xbc"
                                                          "che"});
     EXPECT_EQ(file.material_names, std::vector<std::string>{"W\xc3\xa4nde"});
 }
 
 TEST(ObjFile, lines_are_counted_through_joined_lines) {
-    expect_refusal("v 0 \\\n0 \\\n0\nf 1 \\\n2 3\n",
-                   ":4: the face's corner \"2\" names vertex 2, but 1 vertices stand before it; they count "
-                   "from 1, or backwards from -1");
-    expect_refusal("v 0 0 \\", ":1: the file ends after a backslash, which continues the line");
+    expect_obj_refusal(
+        "v 0 \\\n0 \\\n0\nf 1 \\\n2 3\n",
+        ":4: the face's corner \"2\" names vertex 2, but 1 vertices stand before it; they count "
+        "from 1, or backwards from -1");
+    expect_obj_refusal("v 0 0 \\", ":1: the file ends after a backslash, which continues the line");
 }
 
 TEST(ObjFile, what_is_no_obj) {
-    expect_refusal(
+    expect_obj_refusal(
         std::string("\x7f"
                     "ELF\x02\x01\x01\0\0",
                     9),
         ":1: byte 0x02 is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)");
-    expect_refusal(
+    expect_obj_refusal(
         std::string("v 0 0 0\nv 1 0 0\n\0", 17),
         ":3: byte 0x00 is not text, so this is not an OBJ file; it must be plain text (ASCII or UTF-8)");
-    expect_refusal(
+    expect_obj_refusal(
         "\x89PNG\r\n",
         ":1: \"\\x89PNG\" is not an OBJ statement (is this a text file in the OBJ format?); allowed "
         "are v, f, g, o, usemtl and others that are ignored");
-    expect_refusal(
-        kSquare + "face 1 2 3\n",
+    expect_obj_refusal(
+        kObjSquare + "face 1 2 3\n",
         ":5: \"face\" is not an OBJ statement (is this a text file in the OBJ format?); allowed are "
         "v, f, g, o, usemtl and others that are ignored");
-    expect_refusal("surf 0 1 0 1 1 2 3 4\n",
-                   ":1: the statement \"surf\" is not supported, and its surface would be missing; export "
-                   "polygons (f) instead");
+    expect_obj_refusal(
+        "surf 0 1 0 1 1 2 3 4\n",
+        ":1: the statement \"surf\" is not supported, and its surface would be missing; export "
+        "polygons (f) instead");
 }
 
 TEST(ObjFile, no_triangle) {
-    expect_refusal("",
-                   ": no triangle found, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
-    expect_refusal(kSquare,
-                   ": no triangle found, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
-    expect_refusal(kSquare + "f 1 1 2\n",
-                   ": no triangle found (1 without area left out), so there is no surface; an OBJ file "
-                   "needs faces, such as: f 1 2 3");
+    expect_obj_refusal(
+        "", ": no triangle found, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_obj_refusal(
+        kObjSquare, ": no triangle found, so there is no surface; an OBJ file needs faces, such as: f 1 2 3");
+    expect_obj_refusal(kObjSquare + "f 1 1 2\n",
+                       ": no triangle found (1 without area left out), so there is no surface; an OBJ file "
+                       "needs faces, such as: f 1 2 3");
 }
 
 struct SharedMesh {
@@ -319,7 +327,7 @@ TEST(MeshFile, files_that_cannot_be_read) {
 
 TEST(MeshFile, extension_in_any_case) {
     const TestFolder folder;
-    EXPECT_EQ(read_mesh_file(folder.write("square.OBJ", std::string(kSquare) + "f 1 2 3 4\n"))
+    EXPECT_EQ(read_mesh_file(folder.write("square.OBJ", std::string(kObjSquare) + "f 1 2 3 4\n"))
                   .mesh.triangles.size(),
               2U);
 }

@@ -15,13 +15,13 @@ using Triangles = std::vector<Triangle>;
 
 const std::string kVertices = "element vertex 4\nproperty float x\nproperty float y\nproperty float z\n";
 const std::string kFaces = "element face 1\nproperty list uchar int vertex_indices\n";
-const std::string kSquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
+const std::string kPlySquare = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n";
 
 std::string text_file(const std::string& header, const std::string& body) {
     return "ply\nformat ascii 1.0\n" + header + "end_header\n" + body;
 }
 
-MeshFile read(const std::string& content) { return read_ply(content, "room"); }
+MeshFile read_ply_text(const std::string& content) { return read_ply(content, "room"); }
 
 /// Writes numbers as a binary PLY has them.
 class Bytes {
@@ -52,8 +52,9 @@ std::string binary_header(std::endian order, const std::string& elements) {
 constexpr std::array kOrders{std::endian::little, std::endian::big};
 
 TEST(PlyFile, text) {
-    const MeshFile file = read(text_file("comment made by hand\nobj_info none\n" + kVertices + kFaces,
-                                         "0 0 0\n1 0 0\n1.5 1e0 -2\n0 1 0\n3 0 1 2\n"));
+    const MeshFile file =
+        read_ply_text(text_file("comment made by hand\nobj_info none\n" + kVertices + kFaces,
+                                "0 0 0\n1 0 0\n1.5 1e0 -2\n0 1 0\n3 0 1 2\n"));
     EXPECT_EQ(file.mesh.vertices, (std::vector<Vec3>{{0, 0, 0}, {1, 0, 0}, {1.5, 1, -2}, {0, 1, 0}}));
     EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}}));
     EXPECT_EQ(file.material_names, std::vector<std::string>{""});
@@ -66,22 +67,23 @@ TEST(PlyFile, vertex_normals) {
     const std::string header =
         kVertices + "property float nx\nproperty float ny\nproperty float nz\n" + kFaces;
     const std::string rows = "0 0 0 0 0 2\n1 0 0 0 3 4\n1 1 0 0 0 0\n0 1 0 0 0 -1\n3 0 1 2\n";
-    const Mesh mesh = read(text_file(header, rows)).mesh;
+    const Mesh mesh = read_ply_text(text_file(header, rows)).mesh;
     EXPECT_EQ(mesh.normals, (std::vector<Vec3>{{0, 0, 1}, {0, 0.6, 0.8}, {}, {0, 0, -1}}));
     EXPECT_TRUE(mesh.corner_normals.empty());
     // Two of three are none.
     const std::string two = kVertices + "property float nx\nproperty float ny\n" + kFaces;
-    EXPECT_TRUE(
-        read(text_file(two, "0 0 0 0 1\n1 0 0 0 1\n1 1 0 0 1\n0 1 0 0 1\n3 0 1 2\n")).mesh.normals.empty());
+    EXPECT_TRUE(read_ply_text(text_file(two, "0 0 0 0 1\n1 0 0 0 1\n1 1 0 0 1\n0 1 0 0 1\n3 0 1 2\n"))
+                    .mesh.normals.empty());
 }
 
 TEST(PlyFile, text_with_other_line_ends_blank_lines_and_no_last_end) {
-    EXPECT_EQ(read("ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float "
-                   "y\r\nproperty float z\r\n"
-                   "element face 1\r\nproperty list uchar int vertex_index\r\nend_header\r\n"
-                   "0 0 0\r\n\r\n 1\t0 0 \r\n0 1 0\r\n3 0 1 2")
-                  .mesh.triangles,
-              (Triangles{{0, 1, 2}}));
+    EXPECT_EQ(
+        read_ply_text("ply\r\nformat ascii 1.0\r\nelement vertex 3\r\nproperty float x\r\nproperty float "
+                      "y\r\nproperty float z\r\n"
+                      "element face 1\r\nproperty list uchar int vertex_index\r\nend_header\r\n"
+                      "0 0 0\r\n\r\n 1\t0 0 \r\n0 1 0\r\n3 0 1 2")
+            .mesh.triangles,
+        (Triangles{{0, 1, 2}}));
 }
 
 TEST(PlyFile, binary_of_both_orders) {
@@ -90,7 +92,7 @@ TEST(PlyFile, binary_of_both_orders) {
         body.add<float>({0, 0, 0, 1, 0, 0, 1, 1.5F, 0, 0, 1, 0})
             .add<std::uint8_t>({4})
             .add<std::int32_t>({0, 1, 2, 3});
-        const MeshFile file = read(binary_header(order, kVertices + kFaces) + body.content());
+        const MeshFile file = read_ply_text(binary_header(order, kVertices + kFaces) + body.content());
         EXPECT_EQ(file.mesh.vertices[2], (Vec3{1, 1.5, 0}));
         EXPECT_EQ(file.mesh.triangles.size(), 2U);
     }
@@ -112,7 +114,7 @@ void expect_type_read(const std::string& type, std::endian order) {
         body.add<std::uint8_t>({3});
     }
     body.add<Number>({2, 0, 1});
-    const MeshFile file = read(header + body.content());
+    const MeshFile file = read_ply_text(header + body.content());
     EXPECT_EQ(file.mesh.vertices, (std::vector<Vec3>{{0, 0, 100}, {7, 0, 0}, {0, 5, 0}}));
     EXPECT_EQ(file.mesh.triangles, (Triangles{{2, 0, 1}}));
 }
@@ -141,7 +143,7 @@ TEST(PlyFile, other_elements_properties_and_lists_are_skipped) {
     const std::string text =
         "2 10 20 0.5\n0 0.5\n255 3 1 9 1 2 nan\n255 7 0 4 5 0\n255 9 2 8 8 7 9 0\n2 0.5 0.5 3 2 1 0 -1\n";
     const auto expect_read = [](const std::string& content) {
-        const MeshFile file = read(content);
+        const MeshFile file = read_ply_text(content);
         EXPECT_EQ(file.mesh.vertices, (std::vector<Vec3>{{1, 2, 3}, {4, 5, 7}, {7, 9, 9}}));
         EXPECT_EQ(file.mesh.triangles, (Triangles{{2, 1, 0}}));
     };
@@ -167,10 +169,10 @@ TEST(PlyFile, other_elements_properties_and_lists_are_skipped) {
 }
 
 TEST(PlyFile, polygons_are_triangulated) {
-    const MeshFile file =
-        read(text_file("element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face "
-                       "2\nproperty list uchar int vertex_index\n",
-                       "0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 0 1 2 3\n3 0 0 1\n"));
+    const MeshFile file = read_ply_text(
+        text_file("element vertex 4\nproperty float x\nproperty float y\nproperty float z\nelement face "
+                  "2\nproperty list uchar int vertex_index\n",
+                  "0 0 0\n4 0 0\n1 1 0\n0 4 0\n4 0 1 2 3\n3 0 0 1\n"));
     ASSERT_EQ(file.mesh.triangles.size(), 2U);
     EXPECT_EQ(file.degenerate_triangles, 1U);
     double area = 0;
@@ -186,7 +188,7 @@ TEST(PlyFile, polygons_are_triangulated) {
 TEST(PlyFile, strips_turn_every_second_triangle_and_start_again_at_minus_one) {
     const std::string header = kVertices + "element tristrips 2\nproperty list int int vertex_indices\n";
     const MeshFile file =
-        read(text_file(header, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 0 1 2 3 -1 1 3 2 -1\n4 -1 0 1 2\n"));
+        read_ply_text(text_file(header, "0 0 0\n1 0 0\n0 1 0\n1 1 0\n9 0 1 2 3 -1 1 3 2 -1\n4 -1 0 1 2\n"));
     EXPECT_EQ(file.mesh.triangles, (Triangles{{0, 1, 2}, {2, 1, 3}, {1, 3, 2}, {0, 1, 2}}));
     for (const Triangle& t : file.mesh.triangles) {
         const Vec3& a = file.mesh.vertices[t[0]];
@@ -194,14 +196,15 @@ TEST(PlyFile, strips_turn_every_second_triangle_and_start_again_at_minus_one) {
     }
 }
 
-void expect_refusal(const std::string& content, const std::string& message) {
+void expect_ply_refusal(const std::string& content, const std::string& message) {
     EXPECT_EQ(refusal(read_ply, content), "room" + message);
 }
 
 TEST(PlyFile, what_is_no_ply) {
-    expect_refusal("", ":1: this is not a PLY file: the first line must be ply");
-    expect_refusal("solid room\n", ":1: this is not a PLY file: the first line must be ply");
-    expect_refusal(std::string("\0\xff\xff", 3), ":1: this is not a PLY file: the first line must be ply");
+    expect_ply_refusal("", ":1: this is not a PLY file: the first line must be ply");
+    expect_ply_refusal("solid room\n", ":1: this is not a PLY file: the first line must be ply");
+    expect_ply_refusal(std::string("\0\xff\xff", 3),
+                       ":1: this is not a PLY file: the first line must be ply");
 }
 
 TEST(PlyFile, foreign_lines_of_the_header_are_left_out) {
@@ -234,79 +237,80 @@ TEST(PlyFile, normals_that_are_no_numbers_count_as_missing) {
 }
 
 TEST(PlyFile, broken_headers) {
-    expect_refusal("ply\nformat ascii 1.0\nelement vertex 3\n",
-                   ":3: the header has no end: a line end_header must close it");
-    expect_refusal("ply\nend_header\n",
-                   ":2: the header has no format line; it needs one, such as: format ascii 1.0");
-    expect_refusal("ply\nformat binary_littel_endian 1.0\n",
-                   ":2: the format is \"binary_littel_endian\"; it must be ascii, "
-                   "binary_little_endian or binary_big_endian. Did you mean \"binary_little_endian\"?");
-    expect_refusal("ply\nformat ascii 2.0\n", ":2: the format's version is \"2.0\"; it must be 1.0");
-    expect_refusal("ply\nformat ascii 1.0\nelemnt vertex 3\n",
-                   ":3: the header says \"elemnt\"; allowed are format, element, property, comment, obj_info "
-                   "and end_header. Did you mean \"element\"?");
+    expect_ply_refusal("ply\nformat ascii 1.0\nelement vertex 3\n",
+                       ":3: the header has no end: a line end_header must close it");
+    expect_ply_refusal("ply\nend_header\n",
+                       ":2: the header has no format line; it needs one, such as: format ascii 1.0");
+    expect_ply_refusal("ply\nformat binary_littel_endian 1.0\n",
+                       ":2: the format is \"binary_littel_endian\"; it must be ascii, "
+                       "binary_little_endian or binary_big_endian. Did you mean \"binary_little_endian\"?");
+    expect_ply_refusal("ply\nformat ascii 2.0\n", ":2: the format's version is \"2.0\"; it must be 1.0");
+    expect_ply_refusal(
+        "ply\nformat ascii 1.0\nelemnt vertex 3\n",
+        ":3: the header says \"elemnt\"; allowed are format, element, property, comment, obj_info "
+        "and end_header. Did you mean \"element\"?");
     const std::string count = "; it must be a whole number, 0 or more: element NAME COUNT";
     for (const std::string wrong : {"-1", "3.5", "many", "99999999999999999999"})
-        expect_refusal("ply\nformat ascii 1.0\nelement vertex " + wrong,
-                       ":3: the element \"vertex\" has the count \"" + wrong + "\"" + count);
-    expect_refusal("ply\nformat ascii 1.0\nelement vertex\n",
-                   ":3: the element \"vertex\" has the count \"\"" + count);
-    expect_refusal("ply\nformat ascii 1.0\nproperty float x\n",
-                   ":3: a property stands before any element; an element line must come first");
+        expect_ply_refusal("ply\nformat ascii 1.0\nelement vertex " + wrong,
+                           ":3: the element \"vertex\" has the count \"" + wrong + "\"" + count);
+    expect_ply_refusal("ply\nformat ascii 1.0\nelement vertex\n",
+                       ":3: the element \"vertex\" has the count \"\"" + count);
+    expect_ply_refusal("ply\nformat ascii 1.0\nproperty float x\n",
+                       ":3: a property stands before any element; an element line must come first");
     const std::string types =
         "; allowed are char, uchar, short, ushort, int, uint, float, double, and int8 to float64.";
     const std::string start = "ply\nformat ascii 1.0\nelement vertex 1\n";
-    expect_refusal(start + "property flaot x\n",
-                   ":4: the property's type is \"flaot\"" + types + " Did you mean \"float\"?");
-    expect_refusal(start + "property list uchar quaternion x\n",
-                   ":4: the property's type is \"quaternion\"" + types);
-    expect_refusal(
+    expect_ply_refusal(start + "property flaot x\n",
+                       ":4: the property's type is \"flaot\"" + types + " Did you mean \"float\"?");
+    expect_ply_refusal(start + "property list uchar quaternion x\n",
+                       ":4: the property's type is \"quaternion\"" + types);
+    expect_ply_refusal(
         start + "property list float int x\n",
         ":4: a list's count is of a floating-point type; it must be of a whole-number type, such as uchar");
-    expect_refusal(start + "property float\n",
-                   ":4: the property has no name; the form is: property TYPE NAME, or property list "
-                   "COUNTTYPE TYPE NAME");
-    expect_refusal(start + "property float x\nproperty int x\n",
-                   ":5: the property \"x\" is declared twice; once is right");
-    expect_refusal(start + "element vertex 2\n",
-                   ":4: the element \"vertex\" is declared twice; once is right");
+    expect_ply_refusal(start + "property float\n",
+                       ":4: the property has no name; the form is: property TYPE NAME, or property list "
+                       "COUNTTYPE TYPE NAME");
+    expect_ply_refusal(start + "property float x\nproperty int x\n",
+                       ":5: the property \"x\" is declared twice; once is right");
+    expect_ply_refusal(start + "element vertex 2\n",
+                       ":4: the element \"vertex\" is declared twice; once is right");
 }
 
 TEST(PlyFile, elements_that_lack_something) {
-    expect_refusal(text_file("element vertex 1\nproperty float x\nproperty float y\n", "0 0\n"),
-                   ":3: the element vertex has no property z; it needs x, y and z");
-    expect_refusal(
-        text_file(kVertices + "element face 1\nproperty int vertex_indices\n", kSquare + "3\n"),
+    expect_ply_refusal(text_file("element vertex 1\nproperty float x\nproperty float y\n", "0 0\n"),
+                       ":3: the element vertex has no property z; it needs x, y and z");
+    expect_ply_refusal(
+        text_file(kVertices + "element face 1\nproperty int vertex_indices\n", kPlySquare + "3\n"),
         ":7: the element face has no list of vertices; it needs: property list uchar int vertex_indices");
-    expect_refusal(text_file(kFaces + kVertices, "3 0 1 2\n" + kSquare),
-                   ":3: the element face stands before any vertex; the element vertex must come first");
-    expect_refusal(text_file("element nothing 1000000000000\n" + kVertices, kSquare),
-                   ":3: the element nothing has rows but no property; it needs one");
+    expect_ply_refusal(text_file(kFaces + kVertices, "3 0 1 2\n" + kPlySquare),
+                       ":3: the element face stands before any vertex; the element vertex must come first");
+    expect_ply_refusal(text_file("element nothing 1000000000000\n" + kVertices, kPlySquare),
+                       ":3: the element nothing has rows but no property; it needs one");
 }
 
 TEST(PlyFile, absurd_counts_are_refused_before_any_allocation) {
     const std::string many =
         "element vertex 4000000000000\nproperty float x\nproperty float y\nproperty float z\n";
-    expect_refusal(text_file(many, kSquare),
-                   ":3: the element vertex needs 4000000000000 rows of at least 6 bytes, but 24 bytes "
-                   "are left; the count is wrong or "
-                   "the file is cut off");
-    expect_refusal(binary_header(std::endian::little, many) + "1234",
-                   ":3: the element vertex needs 4000000000000 rows of at least 12 bytes, but 4 bytes "
-                   "are left; the count is wrong or "
-                   "the file is cut off");
-    expect_refusal(binary_header(std::endian::big,
-                                 "element hair 9223372036854775807\nproperty list uint double strand\n"),
-                   ":3: the element hair needs 9223372036854775807 rows of at least 4 bytes, but 0 "
-                   "bytes are left; the count is wrong or "
-                   "the file is cut off");
+    expect_ply_refusal(text_file(many, kPlySquare),
+                       ":3: the element vertex needs 4000000000000 rows of at least 6 bytes, but 24 bytes "
+                       "are left; the count is wrong or "
+                       "the file is cut off");
+    expect_ply_refusal(binary_header(std::endian::little, many) + "1234",
+                       ":3: the element vertex needs 4000000000000 rows of at least 12 bytes, but 4 bytes "
+                       "are left; the count is wrong or "
+                       "the file is cut off");
+    expect_ply_refusal(binary_header(std::endian::big,
+                                     "element hair 9223372036854775807\nproperty list uint double strand\n"),
+                       ":3: the element hair needs 9223372036854775807 rows of at least 4 bytes, but 0 "
+                       "bytes are left; the count is wrong or "
+                       "the file is cut off");
     // A list whose length the file cannot hold, read and skipped.
     for (const std::string list : {"vertex_indices", "unused"}) {
         const std::string elements = kVertices + "element face 1\nproperty list uint int " + list +
                                      "\nproperty list uchar int vertex_index\n";
         Bytes body(std::endian::little);
         body.add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}).add<std::uint32_t>({4294967295U, 0, 1, 2});
-        expect_refusal(
+        expect_ply_refusal(
             binary_header(std::endian::little, elements) + body.content(),
             ": element face, row 1 of 1: the file ends too early: it is cut off, or the count is wrong");
     }
@@ -314,22 +318,23 @@ TEST(PlyFile, absurd_counts_are_refused_before_any_allocation) {
 
 TEST(PlyFile, data_that_are_cut_off) {
     const std::string cut = "the file ends too early: it is cut off, or the count is wrong";
-    expect_refusal(text_file(kVertices, "0.0000 0 0\n1.00000 0 0\n1 1 0\n"),
-                   ":10: element vertex, row 4 of 4: " + cut);
-    expect_refusal(text_file(kVertices, "0.0000 0 0\n1.00000 0 0\n1 1 0\n0.0 1"),
-                   ":11: element vertex, row 4 of 4: the line ends too early; it needs all values that the "
-                   "header declares");
-    expect_refusal(text_file(kVertices + kFaces, kSquare + "3 0 1\n"),
-                   ":14: element face, row 1 of 1: the line ends too early; it needs all values that the "
-                   "header declares");
+    expect_ply_refusal(text_file(kVertices, "0.0000 0 0\n1.00000 0 0\n1 1 0\n"),
+                       ":10: element vertex, row 4 of 4: " + cut);
+    expect_ply_refusal(
+        text_file(kVertices, "0.0000 0 0\n1.00000 0 0\n1 1 0\n0.0 1"),
+        ":11: element vertex, row 4 of 4: the line ends too early; it needs all values that the "
+        "header declares");
+    expect_ply_refusal(text_file(kVertices + kFaces, kPlySquare + "3 0 1\n"),
+                       ":14: element face, row 1 of 1: the line ends too early; it needs all values that the "
+                       "header declares");
     for (const std::endian order : kOrders) {
         Bytes body(order);
         body.add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0})
             .add<std::uint8_t>({3})
             .add<std::int32_t>({0, 1});
         const std::string content = binary_header(order, kVertices + kFaces) + body.content();
-        expect_refusal(content, ": element face, row 1 of 1: " + cut);
-        expect_refusal(content.substr(0, content.size() - 5), ": element face, row 1 of 1: " + cut);
+        expect_ply_refusal(content, ": element face, row 1 of 1: " + cut);
+        expect_ply_refusal(content.substr(0, content.size() - 5), ": element face, row 1 of 1: " + cut);
     }
 }
 
@@ -347,46 +352,48 @@ TEST(PlyFile, every_shorter_file_is_refused) {
 }
 
 TEST(PlyFile, wrong_values) {
-    expect_refusal(
+    expect_ply_refusal(
         text_file(kVertices, "0 0 0\n1 nan 0\n1 1 0\n0 1 0\n"),
         ":9: element vertex, row 2 of 4: y is nan; it must be a finite number, at most 1e30 in size");
-    expect_refusal(
+    expect_ply_refusal(
         text_file(kVertices, "0 0 0\n1 0 1e31\n1 1 0\n0 1 0\n"),
         ":9: element vertex, row 2 of 4: z is 1e+31; it must be a finite number, at most 1e30 in size");
-    expect_refusal(
+    expect_ply_refusal(
         text_file(kVertices, "0 0 0 7\n1 0 1\n1 1 0\n0 1 0\n"),
         ":8: element vertex, row 1 of 4: \"7\" follows the last value; each row needs a line of its own");
-    const auto face = [](const std::string& row) { return text_file(kVertices + kFaces, kSquare + row); };
-    expect_refusal(
+    const auto face = [](const std::string& row) { return text_file(kVertices + kFaces, kPlySquare + row); };
+    expect_ply_refusal(
         face("3 0 1 4\n"),
         ":14: element face, row 1 of 1: the vertex number is 4; it must be a whole number from 0 to 3");
-    expect_refusal(
+    expect_ply_refusal(
         face("3 0 1 -1\n"),
         ":14: element face, row 1 of 1: the vertex number is -1; it must be a whole number from 0 to 3");
-    expect_refusal(
+    expect_ply_refusal(
         face("3 0 1 1.5\n"),
         ":14: element face, row 1 of 1: the vertex number is 1.5; it must be a whole number from 0 to 3");
-    expect_refusal(face("0\n"),
-                   ":14: element face, row 1 of 1: the face has no corners; it needs three or more");
-    expect_refusal(face("2 0 1\n"),
-                   ": no triangle found (1 without area left out), so there is no surface; a PLY file "
-                   "needs an element vertex and an element face (or tristrips)");
-    expect_refusal(face("-3 0 1 2\n"),
-                   ":14: element face, row 1 of 1: the list vertex_indices has the length -3; it must be a "
-                   "whole number, 0 or more");
-    expect_refusal(face("1e300 0 1 2\n"),
-                   ":14: element face, row 1 of 1: the list vertex_indices has the length 1e+300; it must be "
-                   "a whole number, 0 or more");
+    expect_ply_refusal(face("0\n"),
+                       ":14: element face, row 1 of 1: the face has no corners; it needs three or more");
+    expect_ply_refusal(face("2 0 1\n"),
+                       ": no triangle found (1 without area left out), so there is no surface; a PLY file "
+                       "needs an element vertex and an element face (or tristrips)");
+    expect_ply_refusal(
+        face("-3 0 1 2\n"),
+        ":14: element face, row 1 of 1: the list vertex_indices has the length -3; it must be a "
+        "whole number, 0 or more");
+    expect_ply_refusal(
+        face("1e300 0 1 2\n"),
+        ":14: element face, row 1 of 1: the list vertex_indices has the length 1e+300; it must be "
+        "a whole number, 0 or more");
     for (const std::endian order : kOrders) {
         const float infinite = std::numeric_limits<float>::infinity();
         Bytes vertices(order);
         vertices.add<float>({0, 0, 0, 1, -infinite, 0, 1, 1, 0, 0, 1, 0});
-        expect_refusal(
+        expect_ply_refusal(
             binary_header(order, kVertices) + vertices.content(),
             ": element vertex, row 2 of 4: y is -inf; it must be a finite number, at most 1e30 in size");
         Bytes strips(order);
         strips.add<float>({0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0}).add<std::int8_t>({-2}).add<std::int32_t>({0});
-        expect_refusal(
+        expect_ply_refusal(
             binary_header(order, kVertices + "element tristrips 1\nproperty list char int vertex_indices\n") +
                 strips.content(),
             ": element tristrips, row 1 of 1: the list vertex_indices has the length -2; it must be a whole "
@@ -395,19 +402,20 @@ TEST(PlyFile, wrong_values) {
 }
 
 TEST(PlyFile, what_follows_the_last_row) {
-    const std::string file = text_file(kVertices + kFaces, kSquare + "3 0 1 2\n");
+    const std::string file = text_file(kVertices + kFaces, kPlySquare + "3 0 1 2\n");
     EXPECT_EQ(refusal(read_ply, file + "\n \r\n"), "accepted");
-    expect_refusal(file + "3 0 2 3\n",
-                   ": 8 bytes follow the last row that the header declares; its counts are wrong or the file "
-                   "is damaged");
+    expect_ply_refusal(
+        file + "3 0 2 3\n",
+        ": 8 bytes follow the last row that the header declares; its counts are wrong or the file "
+        "is damaged");
 }
 
 TEST(PlyFile, no_triangle) {
     const std::string remedy =
         ", so there is no surface; a PLY file needs an element vertex and an element face (or tristrips)";
-    expect_refusal(text_file(kVertices, kSquare), ": no triangle found" + remedy);
-    expect_refusal(text_file(kVertices + kFaces, kSquare + "3 0 1 1\n"),
-                   ": no triangle found (1 without area left out)" + remedy);
+    expect_ply_refusal(text_file(kVertices, kPlySquare), ": no triangle found" + remedy);
+    expect_ply_refusal(text_file(kVertices + kFaces, kPlySquare + "3 0 1 1\n"),
+                       ": no triangle found (1 without area left out)" + remedy);
 }
 
 TEST(PlyFile, igea_is_a_closed_head) {

@@ -8,14 +8,14 @@ std::string area(const std::string& keys) { return "[sensors.task]\ntype = \"are
 const std::string kCorners = "corners = [[0, 0], [4, 0], [4, 3], [0, 3]]\nheight = 0.75\n";
 
 TEST(SceneAreas, AreRectanglesOrPolygons) {
-    const SceneFile flat = read_text(area(kCorners));
+    const SceneFile flat = read_scene_text(area(kCorners));
     ASSERT_EQ(flat.sensors.size(), 1U);
     EXPECT_EQ(flat.sensors[0].type(), "area");
     EXPECT_EQ(flat.sensors[0].size(), 48U);  // p(4) = 0.527: 8 x 6 cells of half a metre
     const SceneFile spatial =
-        read_text(area("corners = [[0, 0, 0.75], [4, 0, 0.75], [4, 3, 0.75], [0, 3, 0.75]]"));
+        read_scene_text(area("corners = [[0, 0, 0.75], [4, 0, 0.75], [4, 3, 0.75], [0, 3, 0.75]]"));
     const SceneFile rectangle =
-        read_text(area("corner = [0, 0, 0.75]\nedge_u = [4, 0, 0]\nedge_v = [0, 3, 0]"));
+        read_scene_text(area("corner = [0, 0, 0.75]\nedge_u = [4, 0, 0]\nedge_v = [0, 3, 0]"));
     for (const SceneFile* other : {&spatial, &rectangle}) {
         ASSERT_EQ(other->sensors[0].size(), flat.sensors[0].size());
         for (std::size_t j = 0; j < flat.sensors[0].size(); ++j) {
@@ -23,17 +23,17 @@ TEST(SceneAreas, AreRectanglesOrPolygons) {
                       viewpoint_of(flat.sensors[0].measurand(j)).position);
         }
     }
-    EXPECT_EQ(read_text(area(kCorners + "spacing = 0.5\nholes = [[[1, 1], [2, 1], [2, 2], [1, 2]]]"))
+    EXPECT_EQ(read_scene_text(area(kCorners + "spacing = 0.5\nholes = [[[1, 1], [2, 1], [2, 2], [1, 2]]]"))
                   .sensors[0]
                   .size(),
               44U);
 }
 
 TEST(SceneAreas, HaveBandsAsSensorsOfTheirOwn) {
-    const SceneFile file =
-        read_text(area(kCorners + "surround = { width = 0.5, require = { mean = 300, uniformity = 0.4 } }\n"
-                                  "background = 3\nrequire = { mean = 500 }\n") +
-                  "[sensors.ratio]\ntype = \"derived\"\nvalue = \"task.surround.mean / task.mean\"\n");
+    const SceneFile file = read_scene_text(
+        area(kCorners + "surround = { width = 0.5, require = { mean = 300, uniformity = 0.4 } }\n"
+                        "background = 3\nrequire = { mean = 500 }\n") +
+        "[sensors.ratio]\ntype = \"derived\"\nvalue = \"task.surround.mean / task.mean\"\n");
     ASSERT_EQ(file.sensors.size(), 4U);
     EXPECT_EQ(file.sensors[0].name, "task");
     EXPECT_EQ(file.sensors[0].requirements.size(), 1U);
@@ -93,7 +93,7 @@ TEST(SceneAreas, RefuseWrongKeys) {
         "too. Allowed: another name.");
 }
 
-const std::string kRoom =
+const std::string kRoomWithAreas =
     "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
     "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
     "[objects.screen]\nshape = \"rectangle\"\ncorner = [1, 1, 0]\nedge_u = [0, 0, 1]\nedge_v = [2, 0, 0]\n"
@@ -101,7 +101,7 @@ const std::string kRoom =
     "[objects.ball]\nshape = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nmaterial = \"white\"\n";
 
 std::vector<MeasuringPoint> points_of(const std::string& keys) {
-    return std::get<Area>(read_text(kRoom + area(keys)).sensors.at(0).kind).points;
+    return std::get<Area>(read_scene_text(kRoomWithAreas + area(keys)).sensors.at(0).kind).points;
 }
 
 TEST(SceneAreas, AreFacesOfObjects) {
@@ -128,7 +128,7 @@ TEST(SceneAreas, AreFacesOfObjects) {
 TEST(SceneAreas, AreFacesOfARoom) {
     EXPECT_EQ(points_of("room = [2, 1, 0.5]\npart = \"walls\"").size(), 2u * (12 + 9) * 6);
     EXPECT_EQ(points_of("room = [2, 1, 0.5]\nspacing = 1").size(), 2u * (12 + 8 + 6));
-    const auto refusal_of = [](const std::string& keys) { return refusal(kRoom + area(keys)); };
+    const auto refusal_of = [](const std::string& keys) { return refusal(kRoomWithAreas + area(keys)); };
     EXPECT_EQ(
         refusal_of("room = [5, 1, 1]"),
         "s.toml:22: sensors.task.room: lies in no room. A room has a level floor of 1 m² or more, walls, "
@@ -145,8 +145,8 @@ TEST(SceneAreas, AreFacesOfARoom) {
 /// In a room of 4 m x 3 m.
 TEST(SceneAreas, HaveBandsThatEndAtTheWalls) {
     const std::string bands = "surround = { width = 0.5, require = { mean = 300 } }\nbackground = 3\n";
-    const SceneFile desk = read_text(
-        kRoom + area("corners = [[1, 1], [2.6, 1], [2.6, 1.8], [1, 1.8]]\nheight = 0.75\n" + bands));
+    const SceneFile desk = read_scene_text(
+        kRoomWithAreas + area("corners = [[1, 1], [2.6, 1], [2.6, 1.8], [1, 1.8]]\nheight = 0.75\n" + bands));
     ASSERT_EQ(desk.sensors.size(), 3u);
     for (const Sensor& sensor : desk.sensors) {
         for (std::size_t j = 0; j < sensor.size(); ++j) {
@@ -161,7 +161,7 @@ TEST(SceneAreas, HaveBandsThatEndAtTheWalls) {
     ASSERT_EQ(desk.warnings.size(), 1u);
     EXPECT_EQ(desk.warnings[0], "s.toml: no light: the scene is dark.");
     // There is nothing around an area that fills the room.
-    const SceneFile filled = read_text(kRoom + area(kCorners + bands));
+    const SceneFile filled = read_scene_text(kRoomWithAreas + area(kCorners + bands));
     EXPECT_EQ(filled.sensors.size(), 1u);
     ASSERT_EQ(filled.warnings.size(), 3u);
     EXPECT_EQ(
@@ -173,7 +173,7 @@ TEST(SceneAreas, HaveBandsThatEndAtTheWalls) {
 /// A closed room absorbs the flux of its lamp: the mean over all faces is known.
 TEST(SceneAreas, OfAWholeRoomHaveTheMeanOfItsFlux) {
     for (const char* whole : {"object = \"room\"", "room = [1, 1, 1]"}) {
-        const SceneFile file = read_text(
+        const SceneFile file = read_scene_text(
             "[materials.white]\ntype = \"diffuse\"\nreflectance = 0.7\n"
             "[objects.room]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [4, 3, 2]\nmaterial = \"white\"\n"
             "[lights.bulb]\ntype = \"point\"\nposition = [1.5, 1, 1.2]\nflux = 1000\n" +
@@ -190,7 +190,7 @@ TEST(SceneAreas, OfAWholeRoomHaveTheMeanOfItsFlux) {
 }
 
 TEST(SceneAreas, RefuseObjectsWithoutSuchFaces) {
-    const auto refusal_of = [](const std::string& keys) { return refusal(kRoom + area(keys)); };
+    const auto refusal_of = [](const std::string& keys) { return refusal(kRoomWithAreas + area(keys)); };
     EXPECT_EQ(refusal_of("object = \"rom\""),
               "s.toml:22: sensors.task.object: unknown object \"rom\". Did you mean \"room\"? Allowed: room, "
               "screen, ball.");
@@ -247,7 +247,7 @@ material = "wall"
 
 TEST(ScenePlanes, FindTheirRooms) {
     const SceneFile both =
-        read_text(plane("height = 0.8\nmargin = 1\nspacing = 1\nrequire = { mean = 300 }") + kHall);
+        read_scene_text(plane("height = 0.8\nmargin = 1\nspacing = 1\nrequire = { mean = 300 }") + kHall);
     ASSERT_EQ(both.sensors.size(), 2U);
     EXPECT_EQ(both.sensors[0].name, "plane_1");
     EXPECT_EQ(both.sensors[1].name, "plane_2");
@@ -255,17 +255,17 @@ TEST(ScenePlanes, FindTheirRooms) {
     EXPECT_EQ(both.sensors[1].size(), 24U);
     EXPECT_NEAR(viewpoint_of(both.sensors[1].measurand(0)).position.z, 1.8, 1e-4);
     EXPECT_EQ(both.sensors[1].requirements.size(), 1U);
-    const SceneFile one = read_text(plane("object = \"hall\"") + kHall);
+    const SceneFile one = read_scene_text(plane("object = \"hall\"") + kHall);
     ASSERT_EQ(one.sensors.size(), 1U);
     EXPECT_EQ(one.sensors[0].name, "plane");
     // Sensors that use several planes are resolved.
-    const SceneFile derived = read_text(
+    const SceneFile derived = read_scene_text(
         plane("") + kHall + "[sensors.ratio]\ntype = \"derived\"\nvalue = \"plane_1.mean / plane_2.mean\"\n");
     EXPECT_EQ(derived.sensors.size(), 3U);
 }
 
 TEST(ScenePlanes, LieOverAPolygonOfAFloor) {
-    const SceneFile file = read_text(
+    const SceneFile file = read_scene_text(
         plane("polygon = [[0, 0, 0], [4, 0, 0], [4, 3, 0], [0, 3, 0]]\nmargin = 0.5\nspacing = \"auto\""));
     ASSERT_EQ(file.sensors.size(), 1U);
     EXPECT_NEAR(viewpoint_of(file.sensors[0].measurand(0)).position.z, 0.75, 1e-4);

@@ -27,7 +27,8 @@ double flux_of(const SceneFile& file, std::size_t light) {
 }
 
 TEST(SceneDefaults, FillKeysThatAreLeftOut) {
-    const SceneFile plain = read_text(kLights), file = read_text("[defaults.lights]\ncct = 2700\n" + kLights);
+    const SceneFile plain = read_scene_text(kLights),
+                    file = read_scene_text("[defaults.lights]\ncct = 2700\n" + kLights);
     EXPECT_GT(intensity_of(file, 0)[0], 1.5 * intensity_of(file, 0)[2]) << "warm";
     EXPECT_EQ(intensity_of(file, 1), intensity_of(plain, 1)) << "its own colour";
     EXPECT_NEAR(flux_of(file, 0), 100, 1e-9);
@@ -35,9 +36,9 @@ TEST(SceneDefaults, FillKeysThatAreLeftOut) {
 
 TEST(SceneDefaults, YieldToAlternatives) {
     const SceneFile file =
-        read_text("[defaults.lights]\nflux = 7\nposition = [1, 1, 1]\n" + kLights +
-                  "[lights.c]\ntype = \"point\"\npositions = [[0, 0, 3]]\n[lights.d]\ntype = "
-                  "\"point\"");
+        read_scene_text("[defaults.lights]\nflux = 7\nposition = [1, 1, 1]\n" + kLights +
+                        "[lights.c]\ntype = \"point\"\npositions = [[0, 0, 3]]\n[lights.d]\ntype = "
+                        "\"point\"");
     EXPECT_NEAR(flux_of(file, 0), 100, 1e-9);
     EXPECT_NEAR(intensity_of(file, 1).luminance(), 100, 1e-9);
     EXPECT_NEAR(flux_of(file, 2), 7, 1e-9);
@@ -46,13 +47,13 @@ TEST(SceneDefaults, YieldToAlternatives) {
 }
 
 TEST(SceneDefaults, TypesTakeTheirOwnKeysOnly) {
-    const SceneFile file = read_text("[defaults.lights]\naim = [1, 0, 0]\nradius = 0.1\n" + kLights +
-                                     "[lights.c]\ntype = \"sphere\"\ncenter = [5, 0, 0]\nflux = 1");
+    const SceneFile file = read_scene_text("[defaults.lights]\naim = [1, 0, 0]\nradius = 0.1\n" + kLights +
+                                           "[lights.c]\ntype = \"sphere\"\ncenter = [5, 0, 0]\nflux = 1");
     EXPECT_EQ(std::get<Sphere>(file.scene.objects.at(0).shape).radius, 0.1);
 }
 
 TEST(SceneDefaults, TheTypeToo) {
-    const SceneFile file = read_text(R"(
+    const SceneFile file = read_scene_text(R"(
 [defaults.materials]
 type = "diffuse"
 [defaults.lights]
@@ -71,7 +72,7 @@ position = [0, 0, 1]
 }
 
 TEST(SceneDefaults, OfSensors) {
-    const SceneFile file = read_text(R"(
+    const SceneFile file = read_scene_text(R"(
 [defaults.sensors]
 normal = [0, 0, 1]
 resolution = [8, 4]
@@ -94,7 +95,7 @@ target = [1, 0, 1]
 
 TEST(SceneDefaults, NotOfDaylight) {
     const std::string sky = "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
-    const SceneFile file = read_text("[defaults.lights]\ncct = 2700\nmaintenance = 0.5\n" + sky);
+    const SceneFile file = read_scene_text("[defaults.lights]\ncct = 2700\nmaintenance = 0.5\n" + sky);
     const auto& light = std::get<EnvironmentLight>(file.scene.lights.at(0).source);
     EXPECT_EQ(light.luminance_cd_m2, Rgb::grey(100));
 }
@@ -127,26 +128,26 @@ TEST(SceneDefaults, WrongValuesAreFoundWhereTheyStand) {
 }
 
 TEST(SceneMaintenance, MultipliesTheFluxOfAllLamps) {
-    const SceneFile file = read_text(kLights + "[run]\nmaintenance = 0.8");
+    const SceneFile file = read_scene_text(kLights + "[run]\nmaintenance = 0.8");
     EXPECT_NEAR(flux_of(file, 0), 80, 1e-9);
     EXPECT_NEAR(intensity_of(file, 1).luminance(), 80, 1e-9);
     EXPECT_EQ(file.scene.lights[0].maintenance, 0.8);
     EXPECT_EQ(scene::maintenance_factors(file.scene), (std::array{0.8, 0.8}));
-    EXPECT_EQ(scene::maintenance_factors(read_text(kLights).scene), std::nullopt);
+    EXPECT_EQ(scene::maintenance_factors(read_scene_text(kLights).scene), std::nullopt);
 }
 
 TEST(SceneMaintenance, ALampMayHaveItsOwn) {
-    const SceneFile file = read_text(kLights + "maintenance = 0.67\n[run]\nmaintenance = 0.8");
+    const SceneFile file = read_scene_text(kLights + "maintenance = 0.67\n[run]\nmaintenance = 0.8");
     EXPECT_NEAR(flux_of(file, 0), 80, 1e-9);
     EXPECT_NEAR(intensity_of(file, 1).luminance(), 67, 1e-9);
     EXPECT_EQ(scene::maintenance_factors(file.scene), (std::array{0.67, 0.8}));
-    const SceneFile one = read_text(kLights + "maintenance = 0.67");
+    const SceneFile one = read_scene_text(kLights + "maintenance = 0.67");
     EXPECT_EQ(scene::maintenance_factors(one.scene), (std::array{0.67, 1.0}));
 }
 
 TEST(SceneMaintenance, DaylightHasNone) {
     const std::string sky = "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
-    const SceneFile file = read_text(sky + "[run]\nmaintenance = 0.8");
+    const SceneFile file = read_scene_text(sky + "[run]\nmaintenance = 0.8");
     EXPECT_EQ(std::get<EnvironmentLight>(file.scene.lights.at(0).source).luminance_cd_m2, Rgb::grey(100));
     EXPECT_EQ(scene::maintenance_factors(file.scene), std::nullopt);
     EXPECT_TRUE(

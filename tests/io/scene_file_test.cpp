@@ -90,7 +90,7 @@ threads = 2
 )";
 
 TEST(SceneFile, ReadsARoom) {
-    const SceneFile file = read_text(kRoom);
+    const SceneFile file = read_scene_text(kRoom);
     const Scene& scene = file.scene;
     EXPECT_EQ(scene.name, "A room");
     ASSERT_EQ(scene.materials.size(), 4u);
@@ -117,7 +117,7 @@ TEST(SceneFile, ReadsARoom) {
 }
 
 TEST(SceneFile, KeepsTheOrderOfTheFile) {
-    const SceneFile file = read_text(kRoom);
+    const SceneFile file = read_scene_text(kRoom);
     EXPECT_EQ(file.scene.objects[0].name, "room");
     EXPECT_EQ(file.scene.objects[1].name, "carpet");
     EXPECT_EQ(file.scene.lights[0].name, "panel");
@@ -127,7 +127,7 @@ TEST(SceneFile, KeepsTheOrderOfTheFile) {
 }
 
 TEST(SceneFile, ReadsRunOptions) {
-    const RunOptions run = read_text(kRoom).run;
+    const RunOptions run = read_scene_text(kRoom).run;
     EXPECT_EQ(run.method, "local");
     EXPECT_EQ(run.error, 0.01);
     EXPECT_EQ(run.time_s, 60);
@@ -138,7 +138,7 @@ TEST(SceneFile, ReadsRunOptions) {
 }
 
 TEST(SceneFile, LeavesRunOptionsAtTheirDefaults) {
-    const RunOptions run = read_text("[run]\nseed = 0").run;
+    const RunOptions run = read_scene_text("[run]\nseed = 0").run;
     EXPECT_EQ(run.method, "auto");
     EXPECT_FALSE(run.error || run.time_s || run.paths || run.bounces);
     EXPECT_EQ(run.seed, 0u);
@@ -228,7 +228,7 @@ TEST(SceneFile, RefusesWrongRunOptions) {
 }
 
 TEST(SceneFile, WarnsOfUnusedMaterialsAndOfDarkness) {
-    const SceneFile file = read_text("[materials.spare]\ntype = \"black\"");
+    const SceneFile file = read_scene_text("[materials.spare]\ntype = \"black\"");
     EXPECT_EQ(file.warnings,
               (std::vector<std::string>{"s.toml:1: materials.spare: no object has this material.",
                                         "s.toml: no light: the scene is dark."}));

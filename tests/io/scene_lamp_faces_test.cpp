@@ -52,7 +52,7 @@ materials = { glass = "glow" }
     static std::string light(const std::string& name, const std::string& keys) {
         return "[lights." + name + "]\ntype = \"area\"\nobject = \"cube\"\n" + keys + "\n";
     }
-    SceneFile read(const std::string& lights) const { return read_text(cube(lights), directory_); }
+    SceneFile read(const std::string& lights) const { return read_scene_text(cube(lights), directory_); }
     std::string refused(const std::string& lights) const { return refusal(cube(lights), directory_); }
 
     static std::size_t triangles_of(const Object& object) {
@@ -102,7 +102,7 @@ TEST_F(SceneLampFaces, SeveralLampsOfOneMesh) {
 }
 
 TEST_F(SceneLampFaces, AllFacesAreTheObjectItself) {
-    const SceneFile file = read_text(
+    const SceneFile file = read_scene_text(
         "[materials.m]\ntype = \"black\"\n[objects.o]\nshape = \"polygons\"\nmaterial = \"m\"\nvertices = "
         "[[0,0,0], [1,0,0], [0,1,0]]\nfaces = [[0, 1, 2]]\n[lights.a]\ntype = \"area\"\nobject = "
         "\"o\"\nmaterial "

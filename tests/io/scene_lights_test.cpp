@@ -27,24 +27,26 @@ std::string light(const std::string& keys) { return kPanel + ("[lights.a]\n" + k
 double flux_lm(const SceneFile& file) { return flux_lm(file.scene, file.scene.lights.at(0)).luminance(); }
 
 TEST(SceneLights, PointByFluxOrIntensity) {
-    const SceneFile by_flux = read_text(light("type = \"point\"\nposition = [1, 2, 3]\nflux = 100"));
+    const SceneFile by_flux = read_scene_text(light("type = \"point\"\nposition = [1, 2, 3]\nflux = 100"));
     EXPECT_NEAR(flux_lm(by_flux), 100, 1e-9);
     const SceneFile by_intensity =
-        read_text(light("type = \"point\"\nposition = [1, 2, 3]\nintensity = 100"));
+        read_scene_text(light("type = \"point\"\nposition = [1, 2, 3]\nintensity = 100"));
     const auto& point = std::get<PointLight>(by_intensity.scene.lights[0].source);
     EXPECT_NEAR(point.intensity_cd.luminance(), 100, 1e-9);
     EXPECT_EQ(point.position, (Vec3{1, 2, 3}));
 }
 
 TEST(SceneLights, AreaByFluxOrLuminance) {
-    EXPECT_NEAR(flux_lm(read_text(light("type = \"area\"\nobject = \"panel\"\nflux = 500"))), 500, 1e-9);
-    const SceneFile by_luminance = read_text(light("type = \"area\"\nobject = \"panel\"\nluminance = 500"));
+    EXPECT_NEAR(flux_lm(read_scene_text(light("type = \"area\"\nobject = \"panel\"\nflux = 500"))), 500,
+                1e-9);
+    const SceneFile by_luminance =
+        read_scene_text(light("type = \"area\"\nobject = \"panel\"\nluminance = 500"));
     EXPECT_NEAR(flux_lm(by_luminance), 500 * kPi * 2, 1e-9) << "on one side of 2 m2";
 }
 
 TEST(SceneLights, SphereAddsABlackObjectOfItsName) {
     const SceneFile file =
-        read_text(light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nluminance = 1000"));
+        read_scene_text(light("type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nluminance = 1000"));
     const Scene& scene = file.scene;
     ASSERT_EQ(scene.objects.size(), 2u);
     EXPECT_EQ(scene.objects[1].name, "a");
@@ -56,7 +58,7 @@ TEST(SceneLights, SphereAddsABlackObjectOfItsName) {
 
 TEST(SceneLights, SpheresShareTheirMaterial) {
     const std::string sphere = "type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 10\n";
-    const Scene scene = read_text(light(sphere) + "[lights.b]\n" + sphere).scene;
+    const Scene scene = read_scene_text(light(sphere) + "[lights.b]\n" + sphere).scene;
     EXPECT_EQ(scene.materials.size(), 2u);
     EXPECT_EQ(scene.objects[1].materials, scene.objects[2].materials);
 }
@@ -79,7 +81,8 @@ class PanoramaFolder {
 };
 
 TEST(SceneLights, EnvironmentOfOneLuminance) {
-    const SceneFile file = read_text(light("type = \"environment\"\nluminance = 500\ncolor = [2, 1, 1]"));
+    const SceneFile file =
+        read_scene_text(light("type = \"environment\"\nluminance = 500\ncolor = [2, 1, 1]"));
     const auto& environment = std::get<EnvironmentLight>(file.scene.lights[0].source);
     EXPECT_NEAR(environment.luminance_cd_m2.luminance(), 500, 1e-9);
     EXPECT_NEAR(environment.luminance_cd_m2[0] / environment.luminance_cd_m2[1], 2, 1e-12);
@@ -89,7 +92,7 @@ TEST(SceneLights, EnvironmentOfOneLuminance) {
 TEST(SceneLights, EnvironmentByAPanorama) {
     const PanoramaFolder folder;
     const auto read = [&](const std::string& keys) {
-        return read_text(light("type = \"environment\"\nfile = \"sky.exr\"\n" + keys), folder.path());
+        return read_scene_text(light("type = \"environment\"\nfile = \"sky.exr\"\n" + keys), folder.path());
     };
     const SceneFile file = read("dimming = 0.5");
     EXPECT_EQ(file.sources, std::vector{folder.path() / "sky.exr"});
@@ -127,16 +130,17 @@ TEST(SceneLights, RefusesWrongEnvironments) {
               "s.toml:11: lights.a.file: the picture does not cover all directions. Needed: projection "
               "= \"panorama\", fov = 360.");
     std::ofstream(view.path() / "no.hdr") << "no picture";
-    EXPECT_THROW(read_text(light("type = \"environment\"\nfile = \"no.hdr\""), view.path()), InputError);
+    EXPECT_THROW(read_scene_text(light("type = \"environment\"\nfile = \"no.hdr\""), view.path()),
+                 InputError);
 }
 
 TEST(SceneLights, ColourKeepsTheFlux) {
     const std::string point = "type = \"point\"\nposition = [0, 0, 0]\nflux = 100\n";
     for (const std::string colour :
          {"color = [1, 0.5, 0.1]", "color = [100, 50, 10]", "cct = 3000", "color = 7"}) {
-        EXPECT_NEAR(flux_lm(read_text(light(point + colour))), 100, 1e-9) << colour;
+        EXPECT_NEAR(flux_lm(read_scene_text(light(point + colour))), 100, 1e-9) << colour;
     }
-    const SceneFile file = read_text(light(point + "color = [2, 1, 0]"));
+    const SceneFile file = read_scene_text(light(point + "color = [2, 1, 0]"));
     const Rgb intensity = std::get<PointLight>(file.scene.lights[0].source).intensity_cd;
     EXPECT_NEAR(intensity[0] / intensity[1], 2, 1e-12);
     EXPECT_EQ(intensity[2], 0);
@@ -244,7 +248,8 @@ class ScenePhotometry : public testing::Test {
                " 1 3 1 1 2 0 0 0\n1 1 0\n0 45 90\n0\n100 100 100\n";
     }
     SceneFile read(const std::string& keys) const {
-        return read_text("[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\n" + keys, directory_);
+        return read_scene_text("[lights.a]\ntype = \"photometry\"\nposition = [1, 2, 3]\n" + keys,
+                               directory_);
     }
     static Luminaire light_of(const SceneFile& file) {
         return std::get<Luminaire>(file.scene.lights.at(0).source);
@@ -321,13 +326,13 @@ TEST_F(ScenePhotometry, HasThePowerOfItsFileOrItsOwn) {
 
 TEST(SceneLights, PowerIsThatOfEachCopyAndMayBeUnknown) {
     const std::string bulb = "type = \"point\"\nflux = 100\n";
-    const SceneFile file = read_text(
+    const SceneFile file = read_scene_text(
         light(bulb + "positions = [[0, 0, 1], [1, 0, 1], [2, 0, 1]]\npower = 8\n") + "[lights.b]\n" + bulb +
         "position = [0, 1, 1]\n" + "[lights.sky]\ntype = \"environment\"\nluminance = 10\n");
     const scene::InstalledPower power = scene::installed_power(file.scene);
     EXPECT_EQ(power.power_w, 24);
     EXPECT_EQ(power.unknown, std::vector<std::string>{"b"}) << "daylight takes no power";
-    EXPECT_EQ(scene::installed_power(read_text(light(bulb + "position = [0, 1, 1]\n")).scene).power_w,
+    EXPECT_EQ(scene::installed_power(read_scene_text(light(bulb + "position = [0, 1, 1]\n")).scene).power_w,
               std::nullopt);
     EXPECT_REFUSAL(light(bulb + "position = [0, 1, 1]\npower = 0"),
                    "s.toml:13: lights.a.power: 0 is not allowed. Allowed: a power from 1e-6 to 1e9 W.");
@@ -363,25 +368,25 @@ TEST_F(ScenePhotometry, RefusesABrokenFile) {
 /// Groups are names; nothing else about a light depends on them.
 TEST(SceneLights, GroupsAreNamed) {
     const std::string point = "type = \"point\"\nposition = [1, 1, 1]\nflux = 1\n";
-    EXPECT_EQ(read_text(light(point + "group = \"desk\"")).scene.lights.back().group, "desk");
-    EXPECT_EQ(read_text(light(point)).scene.lights.back().group, "");
+    EXPECT_EQ(read_scene_text(light(point + "group = \"desk\"")).scene.lights.back().group, "desk");
+    EXPECT_EQ(read_scene_text(light(point)).scene.lights.back().group, "");
     EXPECT_EQ(refusal(light(point + "group = \"\"")),
               "s.toml:13: lights.a.group: the name is empty. Allowed: a text with at least one character.");
 }
 
 TEST(SceneLights, ThatAreOffGiveNoLightButStay) {
     const std::string sphere = "type = \"sphere\"\ncenter = [1, 1, 1]\nradius = 0.1\nflux = 10\n";
-    const SceneFile off = read_text(light(sphere + "power = 5\non = false\n"));
+    const SceneFile off = read_scene_text(light(sphere + "power = 5\non = false\n"));
     EXPECT_TRUE(off.scene.lights.empty());
     EXPECT_EQ(off.scene.objects.size(), 2u);
     EXPECT_FALSE(scene::installed_power(off.scene).power_w);
-    EXPECT_EQ(read_text(light(sphere + "on = true\n")).scene.lights.size(), 1u);
+    EXPECT_EQ(read_scene_text(light(sphere + "on = true\n")).scene.lights.size(), 1u);
     const std::string sky = "[lights.sky]\ntype = \"environment\"\nluminance = 5\non = ";
-    EXPECT_EQ(read_text(light(sphere) + sky + "true").scene.lights.size(), 2u);
-    EXPECT_EQ(read_text(light(sphere) + sky + "false").scene.lights.size(), 1u);
+    EXPECT_EQ(read_scene_text(light(sphere) + sky + "true").scene.lights.size(), 2u);
+    EXPECT_EQ(read_scene_text(light(sphere) + sky + "false").scene.lights.size(), 1u);
     // The object of a lamp that is off may carry another one.
     const std::string area = "type = \"area\"\nobject = \"panel\"\nflux = 10\n";
-    EXPECT_EQ(read_text(light(area + "on = false\n[lights.b]\n" + area)).scene.lights.at(0).name, "b");
+    EXPECT_EQ(read_scene_text(light(area + "on = false\n[lights.b]\n" + area)).scene.lights.at(0).name, "b");
 }
 
 }  // namespace

@@ -42,7 +42,7 @@ class LuminaireBody : public testing::Test {
     static std::string light(const std::string& keys) {
         return std::string(kMaterials) + "[lights.a]\ntype = \"photometry\"\n" + keys;
     }
-    SceneFile read(const std::string& keys) const { return read_text(light(keys), directory_); }
+    SceneFile read(const std::string& keys) const { return read_scene_text(light(keys), directory_); }
     std::string refusal_of(const std::string& keys) const { return refusal(light(keys), directory_); }
 
     const TestFolder directory_;

@@ -19,7 +19,7 @@ std::string camera(const std::string& keys) {
 LineOfSight line(const Sensor& sensor, std::size_t j) { return std::get<LineOfSight>(sensor.measurand(j)); }
 
 TEST(SceneLuminance, LooksAlongADirection) {
-    const SceneFile file = read_text(sight("direction = [0, 1, 0]"));
+    const SceneFile file = read_scene_text(sight("direction = [0, 1, 0]"));
     const Sensor& s = file.sensors.at(0);
     EXPECT_EQ(s.name, "s");
     EXPECT_EQ(s.type(), "luminance");
@@ -31,28 +31,29 @@ TEST(SceneLuminance, LooksAlongADirection) {
 }
 
 TEST(SceneLuminance, LooksAtATarget) {
-    const SceneFile file = read_text(sight("target = [1, 5, 7]"));
+    const SceneFile file = read_scene_text(sight("target = [1, 5, 7]"));
     EXPECT_LT(length(line(file.sensors[0], 0).direction - Vec3{0, 0.6, 0.8}), 1e-15);
     EXPECT_EQ(file.warnings.size(), 1u) << "that the scene is dark";
 }
 
 TEST(SceneLuminance, LooksAlongManyDirectionsOrAtManyTargets) {
-    const Sensor along = read_text(sight("directions = [[1, 0, 0], [0, 0, -1]]")).sensors[0];
+    const Sensor along = read_scene_text(sight("directions = [[1, 0, 0], [0, 0, -1]]")).sensors[0];
     ASSERT_EQ(along.size(), 2u);
     EXPECT_EQ(line(along, 1).position, (Vec3{1, 2, 3}));
     EXPECT_EQ(line(along, 1).direction, (Vec3{0, 0, -1}));
-    const Sensor at = read_text(sight("targets = [[1, 2, 4], [0, 2, 3], [1, 0, 3]]")).sensors[0];
+    const Sensor at = read_scene_text(sight("targets = [[1, 2, 4], [0, 2, 3], [1, 0, 3]]")).sensors[0];
     ASSERT_EQ(at.size(), 3u);
     EXPECT_EQ(line(at, 0).direction, (Vec3{0, 0, 1}));
     EXPECT_EQ(line(at, 2).direction, (Vec3{0, -1, 0}));
 }
 
 TEST(SceneLuminance, WarnsOnceOfDirectionsThatAreNotUnitVectors) {
-    const SceneFile one = read_text(sight("direction = [0, 2, 0]"));
+    const SceneFile one = read_scene_text(sight("direction = [0, 2, 0]"));
     EXPECT_EQ(line(one.sensors[0], 0).direction, (Vec3{0, 1, 0}));
     EXPECT_EQ(one.warnings.back(),
               "s.toml:4: sensors.s.direction: the vector has length 2; it is normalised to length 1.");
-    const SceneFile many = read_text(sight("directions = [[0, 1, 0], [0, 2, 0], [3, 0, 0], [4, 0, 0]]"));
+    const SceneFile many =
+        read_scene_text(sight("directions = [[0, 1, 0], [0, 2, 0], [3, 0, 0], [4, 0, 0]]"));
     ASSERT_EQ(many.warnings.size(), 3u);
     EXPECT_EQ(many.warnings[1],
               "s.toml:4: sensors.s.directions[1]: the vector has length 2; it is normalised to length 1.");
@@ -88,7 +89,7 @@ TEST(SceneLuminance, RefusesWhatDoesNotSayWhereToLook) {
 }
 
 TEST(SceneGoniometer, MeasuresAPlane) {
-    const Sensor s = read_text(goniometer("normal = [0, 0, 1]\nplane = 90\nstep = 30")).sensors[0];
+    const Sensor s = read_scene_text(goniometer("normal = [0, 0, 1]\nplane = 90\nstep = 30")).sensors[0];
     EXPECT_EQ(s.type(), "goniometer");
     ASSERT_EQ(s.size(), 5u);
     EXPECT_EQ(s.location(0).angles[0].value_deg, -60);
@@ -100,11 +101,11 @@ TEST(SceneGoniometer, MeasuresAPlane) {
 }
 
 TEST(SceneGoniometer, MeasuresTheHemisphereWithoutAPlane) {
-    EXPECT_EQ(read_text(goniometer("normal = [0, 0, 1]\nstep = 30")).sensors[0].size(), 25u);
+    EXPECT_EQ(read_scene_text(goniometer("normal = [0, 0, 1]\nstep = 30")).sensors[0].size(), 25u);
 }
 
 TEST(SceneGoniometer, WarnsOfALongNormal) {
-    const SceneFile file = read_text(goniometer("normal = [0, 3, 0]\nplane = 0\nstep = 30"));
+    const SceneFile file = read_scene_text(goniometer("normal = [0, 3, 0]\nplane = 0\nstep = 30"));
     EXPECT_EQ(std::get<EmergentRay>(file.sensors[0].measurand(0)).normal, (Vec3{0, 1, 0}));
     EXPECT_EQ(file.warnings.back(),
               "s.toml:4: sensors.s.normal: the vector has length 3; it is normalised to length 1.");
@@ -134,7 +135,7 @@ TEST(SceneSensors, CountsReadingsOfAllSensors) {
 }
 
 TEST(SceneCamera, HasDefaults) {
-    const Sensor s = read_text(camera("target = [1, 7, 3]\nresolution = [1280, 720]")).sensors[0];
+    const Sensor s = read_scene_text(camera("target = [1, 7, 3]\nresolution = [1280, 720]")).sensors[0];
     EXPECT_EQ(s.type(), "camera");
     EXPECT_EQ(s.size(), 0u);
     ASSERT_TRUE(s.camera());
@@ -149,8 +150,8 @@ TEST(SceneCamera, HasDefaults) {
 
 TEST(SceneCamera, MayBeSetInEveryWay) {
     const SceneFile file =
-        read_text(camera("target = [1, 2, 0]\nup = [0, 5, 0]\nfov = 200\nresolution = [64, 32]\n"
-                         "projection = \"fisheye\"\nfilter = \"gaussian\""));
+        read_scene_text(camera("target = [1, 2, 0]\nup = [0, 5, 0]\nfov = 200\nresolution = [64, 32]\n"
+                               "projection = \"fisheye\"\nfilter = \"gaussian\""));
     const auto& c = std::get<Camera>(file.sensors[0].kind);
     EXPECT_EQ(c.up, (Vec3{0, 1, 0}));
     EXPECT_EQ(c.fov_deg, 200);
@@ -162,9 +163,9 @@ TEST(SceneCamera, TheFieldOfViewGoesByTheProjection) {
     const auto with = [](const std::string& keys) {
         return camera("target = [1, 7, 3]\nresolution = [4, 4]\n" + keys);
     };
-    EXPECT_EQ(read_text(with("projection = \"fisheye\"")).sensors[0].camera()->fov_deg, 180);
-    EXPECT_EQ(read_text(with("projection = \"panorama\"")).sensors[0].camera()->fov_deg, 360);
-    EXPECT_EQ(read_text(with("projection = \"fisheye\"\nfov = 360")).sensors[0].camera()->fov_deg, 360);
+    EXPECT_EQ(read_scene_text(with("projection = \"fisheye\"")).sensors[0].camera()->fov_deg, 180);
+    EXPECT_EQ(read_scene_text(with("projection = \"panorama\"")).sensors[0].camera()->fov_deg, 360);
+    EXPECT_EQ(read_scene_text(with("projection = \"fisheye\"\nfov = 360")).sensors[0].camera()->fov_deg, 360);
     EXPECT_REFUSAL(with("fov = 180"),
                    "s.toml:6: sensors.s.fov: 180 is not allowed. Allowed: an angle above 0 and below 180 "
                    "degrees (from 0.001 to 179.9).");

@@ -66,7 +66,8 @@ TEST(SceneMaterials, RefusesPhongThatGainsEnergy) {
         material("type = \"phong\"\ndiffuse = [0.1, 0.6, 0.1]\nspecular = 0.5\nexponent = 10"),
         "s.toml:1: materials.m: diffuse + specular is 1.1: no surface reflects more light than it receives. "
         "Allowed: at most 1 in each channel.");
-    EXPECT_NO_THROW(read_text(material("type = \"phong\"\ndiffuse = 0.7\nspecular = 0.3\nexponent = 10")));
+    EXPECT_NO_THROW(
+        read_scene_text(material("type = \"phong\"\ndiffuse = 0.7\nspecular = 0.3\nexponent = 10")));
     const std::string phong = "type = \"phong\"\ndiffuse = 0.7\nspecular = 0.3\nexponent = ";
     const std::string allowed = " is not allowed. Allowed: from 0 to 1e6.";
     EXPECT_REFUSAL(material(phong + "-1"), "s.toml:5: materials.m.exponent: -1" + allowed);
@@ -75,7 +76,7 @@ TEST(SceneMaterials, RefusesPhongThatGainsEnergy) {
 
 TEST(SceneMaterials, ReadsRough) {
     const std::string rough = "type = \"rough\"\nreflectance = [0.9, 0.6, 0.3]\n";
-    const Material read = read_text(material(rough + "roughness = 0.25")).scene.materials[0].material;
+    const Material read = read_scene_text(material(rough + "roughness = 0.25")).scene.materials[0].material;
     EXPECT_EQ(read.get_if<RoughConductor>()->parameters().reflectance, (Rgb{{0.9, 0.6, 0.3}}));
     EXPECT_EQ(read.get_if<RoughConductor>()->parameters().roughness, 0.25);
     const std::string allowed = " is not allowed. Allowed: from 0.001 to 1 (a mirror has type \"mirror\").";
@@ -94,13 +95,13 @@ TEST(SceneMaterials, ReadsRough) {
 TEST(SceneMaterials, ReadsWard) {
     const std::string ward =
         "type = \"ward\"\ndiffuse = 0.3\nspecular = [0.1, 0.2, 0.3]\nroughness = [0.05, 0.2]\n";
-    const Material read = read_text(material(ward + "rotation = -30")).scene.materials[0].material;
+    const Material read = read_scene_text(material(ward + "rotation = -30")).scene.materials[0].material;
     EXPECT_EQ(read.get_if<Ward>()->parameters().diffuse, Rgb::grey(0.3));
     EXPECT_EQ(read.get_if<Ward>()->parameters().specular, (Rgb{{0.1, 0.2, 0.3}}));
     EXPECT_EQ(read.get_if<Ward>()->parameters().roughness[0], 0.05);
     EXPECT_EQ(read.get_if<Ward>()->parameters().roughness[1], 0.2);
     EXPECT_EQ(read.get_if<Ward>()->parameters().rotation_deg, -30);
-    const Material straight = read_text(material(ward)).scene.materials[0].material;
+    const Material straight = read_scene_text(material(ward)).scene.materials[0].material;
     EXPECT_EQ(straight.get_if<Ward>()->parameters().rotation_deg, 0);
     const std::string start = "type = \"ward\"\ndiffuse = 0.3\nspecular = ";
     EXPECT_REFUSAL(
@@ -122,7 +123,7 @@ TEST(SceneMaterials, ReadsWard) {
 TEST(SceneMaterials, ReadsPlastic) {
     const std::string plastic = "type = \"plastic\"\ndiffuse = [0.5, 0.4, 0.3]\n";
     const Material read =
-        read_text(material(plastic + "ior = 1.5\nroughness = 0.1")).scene.materials[0].material;
+        read_scene_text(material(plastic + "ior = 1.5\nroughness = 0.1")).scene.materials[0].material;
     EXPECT_EQ(read.get_if<Plastic>()->parameters().diffuse, (Rgb{{0.5, 0.4, 0.3}}));
     EXPECT_EQ(read.get_if<Plastic>()->parameters().ior, 1.5);
     EXPECT_EQ(read.get_if<Plastic>()->parameters().roughness, 0.1);

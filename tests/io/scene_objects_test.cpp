@@ -25,29 +25,29 @@ const std::string kTetrahedron =
 
 template <class ShapeType>
 ShapeType shape_of(const std::string& toml) {
-    return std::get<ShapeType>(read_text(toml).scene.objects.at(0).shape);
+    return std::get<ShapeType>(read_scene_text(toml).scene.objects.at(0).shape);
 }
 
-void expect_near(const Vec3& actual, const Vec3& expected) {
+void expect_close(const Vec3& actual, const Vec3& expected) {
     EXPECT_LT(length(actual - expected), 1e-12) << actual.x << ' ' << actual.y << ' ' << actual.z;
 }
 
 TEST(SceneObjects, ScaleRotateTranslateInThisOrder) {
     const auto r = shape_of<Rectangle>(square("translate = [0, 0, 5]\nrotate = [0, 0, 2, 90]\nscale = 3"));
-    expect_near(r.corner, {0, 3, 5});
-    expect_near(r.edge_u, {0, 3, 0});
-    expect_near(r.edge_v, {-3, 0, 0});
+    expect_close(r.corner, {0, 3, 5});
+    expect_close(r.edge_u, {0, 3, 0});
+    expect_close(r.edge_v, {-3, 0, 0});
 }
 
 TEST(SceneObjects, TransformIsRowMajor) {
     const auto r = shape_of<Rectangle>(square("transform = [0,-1,0,10, 1,0,0,20, 0,0,1,30, 0,0,0,1]"));
-    expect_near(r.corner, {10, 21, 30});
-    expect_near(r.edge_u, {0, 1, 0});
+    expect_close(r.corner, {10, 21, 30});
+    expect_close(r.edge_u, {0, 1, 0});
 }
 
 TEST(SceneObjects, MirrorsKeepFrontsInFront) {
     const auto r = shape_of<Rectangle>(square("transform = [-1,0,0,0, 0,1,0,0, 0,0,1,0, 0,0,0,1]"));
-    expect_near(cross(r.edge_u, r.edge_v), {0, 0, 1});
+    expect_close(cross(r.edge_u, r.edge_v), {0, 0, 1});
 }
 
 TEST(SceneObjects, RefusesWrongTransforms) {
@@ -122,11 +122,11 @@ TEST(SceneObjects, RefusesFlatShapes) {
 TEST(SceneObjects, DiskNormalsAreMadeUnit) {
     const std::string disk =
         "shape = \"disk\"\ncenter = [0, 0, 0]\nradius = 1\nmaterial = \"wall\"\nnormal = ";
-    const SceneFile file = read_text(object(disk + "[0, 3, 4]"));
-    expect_near(std::get<Disk>(file.scene.objects[0].shape).normal, {0, 0.6, 0.8});
+    const SceneFile file = read_scene_text(object(disk + "[0, 3, 4]"));
+    expect_close(std::get<Disk>(file.scene.objects[0].shape).normal, {0, 0.6, 0.8});
     EXPECT_EQ(file.warnings.at(0),
               "s.toml:10: objects.a.normal: the vector has length 5; it is normalised to length 1.");
-    EXPECT_EQ(read_text(object(disk + "[0, 0.6, 0.8001]")).warnings.at(0),
+    EXPECT_EQ(read_scene_text(object(disk + "[0, 0.6, 0.8001]")).warnings.at(0),
               "s.toml:3: materials.floor: no object has this material.")
         << "no warning of the normal";
     EXPECT_REFUSAL(object(disk + "[0, 0, 0]"),
@@ -145,7 +145,7 @@ TEST(SceneObjects, PolygonsOfAnyNumberOfCorners) {
 }
 
 TEST(SceneObjects, DropsAndCountsDegenerateTriangles) {
-    const SceneFile file = read_text(object(kTetrahedron + "[[0,1,2], [0,1,1], [2,3,2]]"));
+    const SceneFile file = read_scene_text(object(kTetrahedron + "[[0,1,2], [0,1,1], [2,3,2]]"));
     EXPECT_EQ(std::get<Mesh>(file.scene.objects[0].shape).triangles.size(), 1u);
     EXPECT_EQ(file.warnings.at(0), "s.toml:5: objects.a: 2 triangles without area are left out.");
 }
@@ -181,7 +181,7 @@ class SceneMeshes : public testing::Test {
         return object("shape = \"mesh\"\nfile = \"room.obj\"\n" + keys);
     }
     SharedList<MaterialId> materials(const std::string& keys) const {
-        return read_text(mesh(keys), directory_).scene.objects.at(0).materials;
+        return read_scene_text(mesh(keys), directory_).scene.objects.at(0).materials;
     }
 
     static constexpr MaterialId kWall{0}, kFloor{1};
@@ -201,8 +201,8 @@ TEST_F(SceneMeshes, MaterialsByTheFilesMaterialsOrGroups) {
 
 TEST_F(SceneMeshes, AreTransformed) {
     const SceneFile file =
-        read_text(mesh("material = \"floor\"\nscale = 2\ntranslate = [0, 0, 1]"), directory_);
-    expect_near(std::get<Mesh>(file.scene.objects[0].shape).vertices[5], {2, 0, 3});
+        read_scene_text(mesh("material = \"floor\"\nscale = 2\ntranslate = [0, 0, 1]"), directory_);
+    expect_close(std::get<Mesh>(file.scene.objects[0].shape).vertices[5], {2, 0, 3});
 }
 
 TEST_F(SceneMeshes, RefusesUnknownParts) {

@@ -20,7 +20,7 @@ std::string derived(const std::string& formula) {
 }
 
 TEST(SceneDerived, HasTheUnitOfItsFormula) {
-    const SceneFile file = read_text(derived("desk.mean / wall"));
+    const SceneFile file = read_scene_text(derived("desk.mean / wall"));
     const Sensor& sensor = file.sensors.at(4);
     EXPECT_EQ(sensor.type(), "derived");
     EXPECT_EQ(sensor.size(), 0U);
@@ -29,12 +29,12 @@ TEST(SceneDerived, HasTheUnitOfItsFormula) {
     EXPECT_FALSE(sensor.measures_luminance());
     ASSERT_TRUE(sensor.derived());
     EXPECT_EQ(sensor.derived()->formula.text(), "desk.mean / wall");
-    EXPECT_EQ(read_text(derived("desk.maximum - desk[7]")).sensors[4].quantity().unit, "lx");
-    EXPECT_EQ(read_text(derived("sight - 10")).sensors[4].quantity().unit, "cd/m2");
+    EXPECT_EQ(read_scene_text(derived("desk.maximum - desk[7]")).sensors[4].quantity().unit, "lx");
+    EXPECT_EQ(read_scene_text(derived("sight - 10")).sensors[4].quantity().unit, "cd/m2");
 }
 
 TEST(SceneDerived, MayStandBeforeItsSensors) {
-    EXPECT_EQ(read_text("[sensors.a]\ntype = \"derived\"\nvalue = \"wall * 2\"\n" + with_sensors(""))
+    EXPECT_EQ(read_scene_text("[sensors.a]\ntype = \"derived\"\nvalue = \"wall * 2\"\n" + with_sensors(""))
                   .sensors[0]
                   .quantity()
                   .unit,
@@ -73,7 +73,7 @@ TEST(SceneDerived, RefusesFormulasThatDoNotFit) {
 TEST(SceneRequirements, OfGlareAreRatings) {
     const std::string eye =
         "[sensors.eye]\ntype = \"ugr\"\nposition = [1, 2, 1.2]\ndirection = [1, 0, 0]\nrequire = ";
-    const SceneFile file = read_text(eye + "{ ugr = 19 }\n");
+    const SceneFile file = read_scene_text(eye + "{ ugr = 19 }\n");
     const Requirement& requirement = file.sensors.at(0).requirements.at(0);
     EXPECT_EQ(requirement.criterion->key, "ugr");
     EXPECT_EQ(requirement.criterion->statistic, Statistic::maximum);
@@ -91,10 +91,10 @@ TEST(SceneRequirements, OfGlareAreRatings) {
 
 TEST(SceneRequirements, AreLimitsOfStatistics) {
     const SceneFile file =
-        read_text(with_sensors("[sensors.d]\ntype = \"derived\"\nvalue = \"desk.mean / wall\"\n"
-                               "require = { minimum = 0.3, maximum = 0.6 }\n"
-                               "[sensors.e]\ntype = \"cylindrical\"\nposition = [1, 2, 1.2]\n"
-                               "require = { mean = 150, uniformity = 0.1, diversity = 0.05 }\n"));
+        read_scene_text(with_sensors("[sensors.d]\ntype = \"derived\"\nvalue = \"desk.mean / wall\"\n"
+                                     "require = { minimum = 0.3, maximum = 0.6 }\n"
+                                     "[sensors.e]\ntype = \"cylindrical\"\nposition = [1, 2, 1.2]\n"
+                                     "require = { mean = 150, uniformity = 0.1, diversity = 0.05 }\n"));
     ASSERT_EQ(file.sensors.at(4).requirements.size(), 2U);
     const Requirement& most = file.sensors[4].requirements[1];
     EXPECT_EQ(most.criterion->key, "maximum");
@@ -133,8 +133,8 @@ TEST(SceneRequirements, RefusesWhatIsNoRequirement) {
 }
 
 TEST(SceneRun, HasATarget) {
-    EXPECT_EQ(read_text("[run]\nerror = 0.01\ntarget = \"mean\"").run.target, Target::mean);
-    EXPECT_EQ(read_text("[run]\nerror = 0.01").run.target, Target::readings);
+    EXPECT_EQ(read_scene_text("[run]\nerror = 0.01\ntarget = \"mean\"").run.target, Target::mean);
+    EXPECT_EQ(read_scene_text("[run]\nerror = 0.01").run.target, Target::readings);
     EXPECT_REFUSAL(
         "[run]\ntarget = \"means\"",
         "s.toml:2: run.target: unknown target \"means\". Did you mean \"mean\"? Allowed: readings, "

@@ -27,7 +27,7 @@ std::vector<Vec3> positions_of(const Sensor& sensor) {
 const std::vector<Vec3> kPositions{{1, 2, 3}, {3, 2, 3}, {1, 5, 3}, {3, 5, 3}, {1, 8, 3}, {3, 8, 3}};
 
 TEST(SceneRepetition, LightsAtSeveralPositions) {
-    const SceneFile file = read_text(kPoint + "positions = [[1, 2, 3], [4, 5, 6]]");
+    const SceneFile file = read_scene_text(kPoint + "positions = [[1, 2, 3], [4, 5, 6]]");
     EXPECT_EQ(origins_of(file), (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
     EXPECT_EQ(file.scene.lights[0].name, "bulb_1");
     EXPECT_EQ(file.scene.lights[1].name, "bulb_2");
@@ -36,24 +36,25 @@ TEST(SceneRepetition, LightsAtSeveralPositions) {
 }
 
 TEST(SceneRepetition, AnArrayIsTheListOfItsPositions) {
-    const SceneFile file = read_text(kPoint + kArray);
+    const SceneFile file = read_scene_text(kPoint + kArray);
     EXPECT_EQ(origins_of(file), kPositions);
     EXPECT_EQ(file.scene.lights.back().name, "bulb_6");
     const SceneFile row =
-        read_text(kPoint + "array = { origin = [1, 2, 3], step_u = [0, 0, 1], count = [3, 1] }");
+        read_scene_text(kPoint + "array = { origin = [1, 2, 3], step_u = [0, 0, 1], count = [3, 1] }");
     EXPECT_EQ(origins_of(row), (std::vector<Vec3>{{1, 2, 3}, {1, 2, 4}, {1, 2, 5}}));
 }
 
 TEST(SceneRepetition, CopiesShareAGroup) {
-    const SceneFile file = read_text(kPoint + "positions = [[1, 2, 3], [4, 5, 6]]\n" +
-                                     "[lights.lamp]\ntype = \"point\"\nflux = 1\ngroup = \"all\"\n" + kArray);
+    const SceneFile file =
+        read_scene_text(kPoint + "positions = [[1, 2, 3], [4, 5, 6]]\n" +
+                        "[lights.lamp]\ntype = \"point\"\nflux = 1\ngroup = \"all\"\n" + kArray);
     EXPECT_EQ(file.scene.lights[1].group, "bulb");
     EXPECT_EQ(file.scene.lights[2].group, "all");
-    EXPECT_EQ(read_text(kPoint + "position = [1, 2, 3]").scene.lights[0].group, "");
+    EXPECT_EQ(read_scene_text(kPoint + "position = [1, 2, 3]").scene.lights[0].group, "");
 }
 
 TEST(SceneRepetition, EachSphereHasAnObject) {
-    const SceneFile file = read_text(kSphere + "positions = [[1, 2, 3], [4, 5, 6]]");
+    const SceneFile file = read_scene_text(kSphere + "positions = [[1, 2, 3], [4, 5, 6]]");
     ASSERT_EQ(file.scene.objects.size(), 2u);
     EXPECT_EQ(file.scene.objects[1].name, "globe_2");
     EXPECT_EQ(std::get<Sphere>(file.scene.objects[1].shape).center, (Vec3{4, 5, 6}));
@@ -74,22 +75,22 @@ TEST(SceneRepetition, SensorsOfPointsTakeAllPositionsTogether) {
     for (const std::string& type : types) {
         const std::string sensor = "[sensors.s]\n" + type + "\n";
         for (const std::string key : {"points", "positions"}) {
-            const SceneFile file = read_text(sensor + key + " = [[1, 2, 3], [4, 5, 6]]");
+            const SceneFile file = read_scene_text(sensor + key + " = [[1, 2, 3], [4, 5, 6]]");
             ASSERT_EQ(file.sensors.size(), 1u);
             EXPECT_EQ(positions_of(file.sensors[0]), (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
         }
-        EXPECT_EQ(positions_of(read_text(sensor + kArray).sensors.at(0)), kPositions);
+        EXPECT_EQ(positions_of(read_scene_text(sensor + kArray).sensors.at(0)), kPositions);
     }
 }
 
 TEST(SceneRepetition, LinesOfSightFromSeveralPositions) {
     const std::string sight = "[sensors.s]\ntype = \"luminance\"\npositions = [[0, 0, 1], [0, 2, 1]]\n";
-    const SceneFile file = read_text(sight + "targets = [[1, 0, 1], [0, 1, 1]]");
+    const SceneFile file = read_scene_text(sight + "targets = [[1, 0, 1], [0, 1, 1]]");
     const Sensor& sensor = file.sensors.at(0);
     EXPECT_EQ(positions_of(sensor), (std::vector<Vec3>{{0, 0, 1}, {0, 0, 1}, {0, 2, 1}, {0, 2, 1}}));
     EXPECT_EQ(std::get<LineOfSight>(sensor.measurand(1)).direction, (Vec3{0, 1, 0}));
     EXPECT_EQ(std::get<LineOfSight>(sensor.measurand(3)).direction, (Vec3{0, -1, 0}));
-    const SceneFile parallel = read_text(sight + "direction = [0, 0, 2]");
+    const SceneFile parallel = read_scene_text(sight + "direction = [0, 0, 2]");
     EXPECT_EQ(std::get<LineOfSight>(parallel.sensors.at(0).measurand(1)).direction, (Vec3{0, 0, 1}));
     ASSERT_EQ(parallel.warnings.size(), 2u) << "the scene has no light";
     EXPECT_EQ(parallel.warnings[1],
@@ -97,12 +98,13 @@ TEST(SceneRepetition, LinesOfSightFromSeveralPositions) {
 }
 
 TEST(SceneRepetition, GridsAreCopied) {
-    const SceneFile file = read_text(kGrid + kArray);
+    const SceneFile file = read_scene_text(kGrid + kArray);
     ASSERT_EQ(file.sensors.size(), 6u);
     EXPECT_EQ(file.sensors[4].name, "desk_5");
     EXPECT_EQ(std::get<Grid>(file.sensors[4].kind).corner, kPositions[4]);
     EXPECT_EQ(file.sensors[4].size(), 4u);
-    const SceneFile turned = read_text(kGrid + "normal = [0, 0, 3]\npositions = [[1, 2, 3], [4, 5, 6]]");
+    const SceneFile turned =
+        read_scene_text(kGrid + "normal = [0, 0, 3]\npositions = [[1, 2, 3], [4, 5, 6]]");
     EXPECT_EQ(turned.warnings.size(), 2u) << "no light, and the length of the normal, once for both copies";
 }
 
@@ -158,7 +160,7 @@ TEST(SceneRepetition, RefusesTwoOfOneName) {
         other + kPoint + "positions = [[0, 0, 1], [0, 0, 2]]",
         "s.toml:5: lights.bulb: the name \"bulb_2\" occurs twice, as the copies of a table are named "
         "after it, with _1, _2 and so on. Allowed: another name for one of the two tables.");
-    EXPECT_EQ(read_text(other + kPoint + "positions = [[0, 0, 1]]").scene.lights.size(), 2u);
+    EXPECT_EQ(read_scene_text(other + kPoint + "positions = [[0, 0, 1]]").scene.lights.size(), 2u);
 }
 
 TEST(SceneRepetition, OtherTypesHaveOnePlace) {

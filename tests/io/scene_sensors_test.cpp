@@ -10,7 +10,7 @@ std::string grid(const std::string& keys) {
 }
 
 TEST(SceneSensors, GridMeasuresAtCellCentresUFastest) {
-    const Sensor s = read_text(grid("count = [4, 2]")).sensors.at(0);
+    const Sensor s = read_scene_text(grid("count = [4, 2]")).sensors.at(0);
     EXPECT_EQ(s.type(), "grid");
     EXPECT_EQ(s.count(), (std::array{4, 2}));
     ASSERT_EQ(s.size(), 8u);
@@ -21,7 +21,7 @@ TEST(SceneSensors, GridMeasuresAtCellCentresUFastest) {
 }
 
 TEST(SceneSensors, GridMayHaveANormalOfItsOwn) {
-    const SceneFile file = read_text(grid("count = [1, 1]\nnormal = [0, 2, 0]"));
+    const SceneFile file = read_scene_text(grid("count = [1, 1]\nnormal = [0, 2, 0]"));
     EXPECT_EQ(viewpoint_of(file.sensors[0].measurand(0)).normal, (Vec3{0, 1, 0}));
     EXPECT_EQ(file.warnings.back(),
               "s.toml:7: sensors.s.normal: the vector has length 2; it is normalised to length 1.");
@@ -29,11 +29,12 @@ TEST(SceneSensors, GridMayHaveANormalOfItsOwn) {
 
 TEST(SceneSensors, IlluminanceAtOnePointOrMany) {
     const Sensor one =
-        read_text(sensor("type = \"illuminance\"\nposition = [1, 2, 3]\nnormal = [0, 0, 1]")).sensors[0];
+        read_scene_text(sensor("type = \"illuminance\"\nposition = [1, 2, 3]\nnormal = [0, 0, 1]"))
+            .sensors[0];
     ASSERT_EQ(one.size(), 1u);
     EXPECT_EQ(viewpoint_of(one.measurand(0)).position, (Vec3{1, 2, 3}));
     const Sensor two =
-        read_text(sensor("type = \"illuminance\"\npoints = [[1, 2, 3], [4, 5, 6]]\nnormal = [1, 0, 0]"))
+        read_scene_text(sensor("type = \"illuminance\"\npoints = [[1, 2, 3], [4, 5, 6]]\nnormal = [1, 0, 0]"))
             .sensors[0];
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(viewpoint_of(two.measurand(1)).position, (Vec3{4, 5, 6}));
@@ -43,7 +44,7 @@ TEST(SceneSensors, IlluminanceAtOnePointOrMany) {
 BodyPoint body(const Sensor& sensor, std::size_t j) { return std::get<BodyPoint>(sensor.measurand(j)); }
 
 TEST(SceneBodies, StandAtOnePointOrMany) {
-    const Sensor one = read_text(sensor("type = \"cylindrical\"\nposition = [1, 2, 3]")).sensors[0];
+    const Sensor one = read_scene_text(sensor("type = \"cylindrical\"\nposition = [1, 2, 3]")).sensors[0];
     EXPECT_EQ(one.type(), "cylindrical");
     EXPECT_EQ(one.quantity().name, "cylindrical illuminance");
     EXPECT_EQ(one.quantity().unit, "lx");
@@ -52,7 +53,8 @@ TEST(SceneBodies, StandAtOnePointOrMany) {
     EXPECT_EQ(body(one, 0).position, (Vec3{1, 2, 3}));
     EXPECT_EQ(body(one, 0).axis, (Vec3{0, 0, 1}));
     EXPECT_TRUE(one.location(0).directions.empty());
-    const Sensor two = read_text(sensor("type = \"spherical\"\npoints = [[1, 2, 3], [4, 5, 6]]")).sensors[0];
+    const Sensor two =
+        read_scene_text(sensor("type = \"spherical\"\npoints = [[1, 2, 3], [4, 5, 6]]")).sensors[0];
     EXPECT_EQ(two.quantity().name, "spherical illuminance");
     ASSERT_EQ(two.size(), 2u);
     EXPECT_EQ(body(two, 1).position, (Vec3{4, 5, 6}));
@@ -60,14 +62,15 @@ TEST(SceneBodies, StandAtOnePointOrMany) {
 
 TEST(SceneBodies, FaceADirectionOrANormal) {
     const SceneFile file =
-        read_text(sensor("type = \"semicylindrical\"\nposition = [1, 2, 3]\ndirection = [0, 2, 0]"));
+        read_scene_text(sensor("type = \"semicylindrical\"\nposition = [1, 2, 3]\ndirection = [0, 2, 0]"));
     EXPECT_EQ(body(file.sensors[0], 0).axis, (Vec3{0, 1, 0}));
     ASSERT_EQ(file.sensors[0].location(0).directions.size(), 1u);
     EXPECT_EQ(file.sensors[0].location(0).directions[0].name, "direction");
     EXPECT_EQ(file.warnings.back(),
               "s.toml:4: sensors.s.direction: the vector has length 2; it is normalised to length 1.");
     const Sensor hemisphere =
-        read_text(sensor("type = \"hemispherical\"\nposition = [1, 2, 3]\nnormal = [0, 0, -1]")).sensors[0];
+        read_scene_text(sensor("type = \"hemispherical\"\nposition = [1, 2, 3]\nnormal = [0, 0, -1]"))
+            .sensors[0];
     EXPECT_EQ(body(hemisphere, 0).axis, (Vec3{0, 0, -1}));
     EXPECT_EQ(hemisphere.location(0).directions[0].name, "normal");
 }

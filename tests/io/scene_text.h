@@ -11,8 +11,8 @@
 
 namespace stilb::io {
 
-inline SceneFile read_text(const std::string& toml,
-                           const std::filesystem::path& directory = "no-such-directory") {
+inline SceneFile read_scene_text(const std::string& toml,
+                                 const std::filesystem::path& directory = "no-such-directory") {
     return read_scene(toml, "s.toml", directory);
 }
 
@@ -20,7 +20,7 @@ inline SceneFile read_text(const std::string& toml,
 inline std::string refusal(const std::string& toml,
                            const std::filesystem::path& directory = "no-such-directory") {
     try {
-        read_text(toml, directory);
+        read_scene_text(toml, directory);
         return "accepted";
     } catch (const InputError& error) {
         return error.what();

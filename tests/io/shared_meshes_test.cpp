@@ -59,7 +59,7 @@ TEST(SharedMeshes, GiveTheSameLightAsCopies) {
     std::vector<std::vector<statistics::Estimate>> found;
     for (const std::size_t triangles : {999, 1000, 1001}) {
         write_plate(directory / "plate.obj", triangles);
-        const SceneFile file = read_text(text, directory);
+        const SceneFile file = read_scene_text(text, directory);
         ASSERT_EQ(file.scene.objects.size(), 102u);
         EXPECT_EQ(std::holds_alternative<Instance>(file.scene.objects[1].shape), triangles >= 1000);
         run::RunOptions options;

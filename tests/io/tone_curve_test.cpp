@@ -11,7 +11,7 @@
 namespace stilb::io {
 namespace {
 
-using Bytes = std::array<std::uint8_t, 3>;
+using ByteColour = std::array<std::uint8_t, 3>;
 
 TEST(ToneCurve, IsMonotoneFromBlackToWhite) {
     const ToneCurve curve(0.01);
@@ -40,18 +40,18 @@ TEST(ToneCurve, TellsLampsFromWhatTheyLight) {
 TEST(ToneCurve, BlackStaysBlackAndGreyGrey) {
     const ToneCurve curve(1);
     const float nan = NAN;
-    EXPECT_EQ(curve.srgb({0, 0, 0}), (Bytes{0, 0, 0}));
-    EXPECT_EQ(curve.srgb({-1, -1, -1}), (Bytes{0, 0, 0}));
-    EXPECT_EQ(curve.srgb({nan, nan, nan}), (Bytes{0, 0, 0}));
-    EXPECT_EQ(curve.srgb({8, 8, 8}), (Bytes{255, 255, 255}));
-    EXPECT_EQ(curve.srgb({INFINITY, INFINITY, INFINITY}), (Bytes{255, 255, 255}));
+    EXPECT_EQ(curve.srgb({0, 0, 0}), (ByteColour{0, 0, 0}));
+    EXPECT_EQ(curve.srgb({-1, -1, -1}), (ByteColour{0, 0, 0}));
+    EXPECT_EQ(curve.srgb({nan, nan, nan}), (ByteColour{0, 0, 0}));
+    EXPECT_EQ(curve.srgb({8, 8, 8}), (ByteColour{255, 255, 255}));
+    EXPECT_EQ(curve.srgb({INFINITY, INFINITY, INFINITY}), (ByteColour{255, 255, 255}));
     for (float grey = 0.001f; grey < 10; grey *= 1.5f) {
-        const Bytes bytes = curve.srgb({grey, grey, grey});
+        const ByteColour bytes = curve.srgb({grey, grey, grey});
         EXPECT_EQ(bytes[0], bytes[1]);
         EXPECT_EQ(bytes[1], bytes[2]);
     }
     // 0.18 in sRGB is 0.4614.
-    EXPECT_EQ(curve.srgb({0.18f, 0.18f, 0.18f}), (Bytes{118, 118, 118}));
+    EXPECT_EQ(curve.srgb({0.18f, 0.18f, 0.18f}), (ByteColour{118, 118, 118}));
 }
 
 /// White balance: whatever the lamps' colour temperature, a grey wall is grey, and as bright as ever.
@@ -62,13 +62,13 @@ TEST(ToneCurve, ShowsANeutralWallWithoutHue) {
         EXPECT_NEAR(curve.white_k(), kelvin, 1);
         for (const float luminance : {5.0f, 18.0f, 60.0f, 300.0f}) {
             const Rgb wall = luminance * white;
-            const Bytes shown = curve.srgb({float(wall[0]), float(wall[1]), float(wall[2])});
+            const ByteColour shown = curve.srgb({float(wall[0]), float(wall[1]), float(wall[2])});
             EXPECT_EQ(shown, ToneCurve(0.01).srgb({luminance, luminance, luminance})) << kelvin;
         }
     }
     // Without it the wall at 4000 K is sepia.
     const Rgb wall = 18 * lights::colour_of_temperature(4000);
-    const Bytes shown = ToneCurve(0.01).srgb({float(wall[0]), float(wall[1]), float(wall[2])});
+    const ByteColour shown = ToneCurve(0.01).srgb({float(wall[0]), float(wall[1]), float(wall[2])});
     EXPECT_GT(shown[0], shown[2] + 30);
 }
 
@@ -81,7 +81,7 @@ TEST(ToneCurve, KeepsTheLuminanceOfColoursBeyondTheScreen) {
     const ToneCurve curve(1);
     for (const std::array<float, 3>& rgb :
          {std::array<float, 3>{4, 0.1f, 0}, {0, 0, 9}, {3, 3, -1}, {0.1f, 7, 0.1f}, {0.5f, -0.05f, 0.2f}}) {
-        const Bytes bytes = curve.srgb(rgb);
+        const ByteColour bytes = curve.srgb(rgb);
         const Rgb shown{{linear(bytes[0]), linear(bytes[1]), linear(bytes[2])}};
         const double luminance = Rgb{{rgb[0], rgb[1], rgb[2]}}.luminance();
         EXPECT_NEAR(shown.luminance(), curve.display_luminance(luminance), 0.005);

@@ -37,13 +37,13 @@ Vec3 random_direction(math::SampleStream& stream) {
 }
 
 /// A shape, and the part of it whose share of samples is known.
-struct Case {
+struct ProjectedCase {
     Shape whole, part;
 };
 
 /// Shapes about the origin of size 1, skewed and small ones too.
-std::vector<Case> random_cases(math::RandomKey key) {
-    std::vector<Case> cases;
+std::vector<ProjectedCase> random_cases(math::RandomKey key) {
+    std::vector<ProjectedCase> cases;
     for (std::uint64_t i = 0; i < 40; ++i) {
         math::SampleStream stream(key, i, 0);
         const double size = i % 4 == 3 ? 0.01 : 1;
@@ -81,7 +81,7 @@ bool is_in(const Shape& part, const LitPoint& at, const Vec3& point) {
 
 TEST(ProjectedSolidAngle, AgreesWithTheExactFactors) {
     std::size_t lit = 0, cut = 0;
-    const std::vector<Case> cases = random_cases({1});
+    const std::vector<ProjectedCase> cases = random_cases({1});
     for (std::size_t c = 0; c < cases.size(); ++c) {
         const EmitterElement element = emitter_elements(cases[c].whole).front();
         ASSERT_TRUE(has_closed_form(element));
@@ -103,7 +103,7 @@ TEST(ProjectedSolidAngle, AgreesWithTheExactFactors) {
 }
 
 TEST(ProjectedSolidAngle, SamplesAreUniform) {
-    const std::vector<Case> cases = random_cases({3});
+    const std::vector<ProjectedCase> cases = random_cases({3});
     double squares = 0, worst = 0;
     int tests = 0;
     for (std::size_t c = 0; c < cases.size(); ++c) {

@@ -13,7 +13,7 @@ namespace stilb::materials {
 namespace {
 
 /// A unit vector at this angle to the normal, at an azimuth that is no axis.
-Vec3 incident(double degrees) {
+Vec3 incident_at(double degrees) {
     const double theta = degrees * kPi / 180;
     return {std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7), std::cos(theta)};
 }
@@ -50,7 +50,7 @@ double p_of_samples(const Material& material, const Vec3& in, const DirectionGri
 TEST(DiffuseMaterial, SamplesFollowTheirDensity) {
     const Diffuse material{{{0.2, 0.5, 0.8}}};
     for (const double degrees : kIncidenceDegrees) {
-        const Vec3 in = incident(degrees);
+        const Vec3 in = incident_at(degrees);
         EXPECT_GT(p_of_samples(material, in, {0, {0, 0, 1}, 1}), kLeastP) << degrees;
     }
 }
@@ -59,7 +59,7 @@ TEST(DiffuseMaterial, WhiteReflectsAllLight) {
     RandomPairs random(1);
     for (int i = 0; i < 1000; ++i) {
         const auto [u1, u2] = random.next_pair();
-        const auto sample = sample_brdf(Diffuse{Rgb::grey(1)}, incident(60), u1, u2);
+        const auto sample = sample_brdf(Diffuse{Rgb::grey(1)}, incident_at(60), u1, u2);
         ASSERT_TRUE(sample);
         EXPECT_EQ(sample->weight, Rgb::grey(1));
     }
@@ -68,7 +68,7 @@ TEST(DiffuseMaterial, WhiteReflectsAllLight) {
 TEST(PhongMaterial, SamplesFollowTheirDensity) {
     for (const double exponent : kExponents) {
         for (const double degrees : kIncidenceDegrees) {
-            const Vec3 in = incident(degrees);
+            const Vec3 in = incident_at(degrees);
             const DirectionGrid grid = grid_for(exponent, in);
             EXPECT_GT(p_of_samples(phong(exponent), in, grid), kLeastP) << exponent << ' ' << degrees;
             EXPECT_GT(p_of_samples(glossy(exponent), in, grid), kLeastP) << exponent << ' ' << degrees;
@@ -89,7 +89,7 @@ TEST(PhongMaterial, LobeReflectsAllLightAtNormalIncidence) {
 
 TEST(PhongMaterial, LobeLosesTheShareBelowTheSurfaceAtGrazingIncidence) {
     // At 90 degrees the lobe is 1/2 for n = 0 and, the integral of 3/(2 pi) x+ z+ being 1/pi, 1/pi for n = 1.
-    const Vec3 in = incident(90 - 1e-7);
+    const Vec3 in = incident_at(90 - 1e-7);
     EXPECT_NEAR(albedo(glossy(0), in)[0], 0.5, 1e-3);
     EXPECT_NEAR(albedo(glossy(1), in)[0], 1 / kPi, 1e-4);
 }
@@ -98,7 +98,7 @@ TEST(PhongMaterial, ReflectsNoMoreThanArrives) {
     for (const double exponent : {0.0, 0.3, 1.0, 50.0, 1e4, 1e6}) {
         for (double degrees = 0; degrees < 90; degrees += 12.8) {
             const Phong material = phong(exponent);
-            const Rgb reflected = albedo(material, incident(degrees));
+            const Rgb reflected = albedo(material, incident_at(degrees));
             const Rgb bound = reflectance_bound(material);
             for (std::size_t band = 0; band < kBands; ++band) {
                 EXPECT_LE(reflected[band], bound[band] + 1e-5) << exponent << ' ' << degrees;
@@ -114,7 +114,7 @@ TEST(PhongMaterial, MeanWeightIsTheAlbedo) {
     for (const double exponent : kExponents) {
         for (const double degrees : kIncidenceDegrees) {
             const Phong material = phong(exponent);
-            const Vec3 in = incident(degrees);
+            const Vec3 in = incident_at(degrees);
             const Rgb exact = albedo(material, in);
             Rgb sum, squares;
             for (int i = 0; i < kSamples; ++i) {
@@ -140,7 +140,7 @@ TEST(PhongMaterial, WeightIsBrdfTimesCosineOverDensity) {
     for (const double exponent : {0.0, 1.0, 50.0, 1e4, 1e6}) {
         for (const double degrees : {0.0, 45.0, 80.0, 89.9, 89.999999}) {
             const Phong material = phong(exponent);
-            const Vec3 in = incident(degrees);
+            const Vec3 in = incident_at(degrees);
             for (int i = 0; i < 1000; ++i) {
                 const auto [u1, u2] = random.next_pair();
                 const auto sample = sample_brdf(material, in, u1, u2);
@@ -168,7 +168,7 @@ TEST(PhongMaterial, IsFiniteAtTheEndsOfTheRandomNumbers) {
     for (const double exponent : {0.0, 1.0, 1e6}) {
         for (const double u1 : {0.0, 0x1p-53, 0.5, kLargest}) {
             for (const double u2 : {0.0, 0.5, kLargest}) {
-                const auto sample = sample_brdf(phong(exponent), incident(30), u1, u2);
+                const auto sample = sample_brdf(phong(exponent), incident_at(30), u1, u2);
                 if (!sample) continue;
                 EXPECT_TRUE(is_finite(sample->direction) && sample->weight.is_finite());
                 EXPECT_GT(sample->pdf_per_sr, 0);
@@ -178,12 +178,12 @@ TEST(PhongMaterial, IsFiniteAtTheEndsOfTheRandomNumbers) {
 }
 
 TEST(PhongMaterial, WithoutReflectanceAbsorbs) {
-    EXPECT_FALSE(sample_brdf(Phong{}, incident(10), 0.4, 0.5));
-    EXPECT_EQ(pdf_per_sr(Phong{}, incident(10), incident(20)), 0);
+    EXPECT_FALSE(sample_brdf(Phong{}, incident_at(10), 0.4, 0.5));
+    EXPECT_EQ(pdf_per_sr(Phong{}, incident_at(10), incident_at(20)), 0);
 }
 
 TEST(BlackMaterial, Absorbs) {
-    EXPECT_FALSE(sample_brdf(Black{}, incident(35), 0.2, 0.9));
+    EXPECT_FALSE(sample_brdf(Black{}, incident_at(35), 0.2, 0.9));
     EXPECT_EQ(reflectance_bound(Black{}), Rgb{});
 }
 

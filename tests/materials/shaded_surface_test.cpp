@@ -21,7 +21,7 @@
 namespace stilb::materials {
 namespace {
 
-const Rgb kWhite = Rgb::grey(1);
+const Rgb kShadedWhite = Rgb::grey(1);
 
 Vec3 at(double theta_deg, double phi_deg) {
     const double theta = theta_deg * kPi / 180, phi = phi_deg * kPi / 180;
@@ -34,20 +34,21 @@ ShadedSurface bent(const Material& material, double tilt_deg) {
     return {material, normal, Frame::of_surface(normal).to_world(at(tilt_deg, 40))};
 }
 
-struct Case {
+struct ShadedCase {
     std::string name;
     Material material;
     int concentration;  ///< of the grid of directions
 };
 
-const std::vector<Case>& scattering() {
-    static const std::vector<Case> cases{{"diffuse", Diffuse{kWhite}, 1},
-                                         {"phong 1", Phong{{}, kWhite, 1}, 1},
-                                         {"phong 100", Phong{Rgb::grey(0.5), Rgb::grey(0.5), 100}, 3},
-                                         {"rough 0.1", RoughConductor({kWhite, 0.1}), 4},
-                                         {"rough 0.5", RoughConductor({kWhite, 0.5}), 2},
-                                         {"ward", Ward({Rgb::grey(0.3), Rgb::grey(0.7), {0.1, 0.4}, 30}), 3},
-                                         {"plastic", Plastic({kWhite, 1.5, 0.2}), 3}};
+const std::vector<ShadedCase>& scattering() {
+    static const std::vector<ShadedCase> cases{
+        {"diffuse", Diffuse{kShadedWhite}, 1},
+        {"phong 1", Phong{{}, kShadedWhite, 1}, 1},
+        {"phong 100", Phong{Rgb::grey(0.5), Rgb::grey(0.5), 100}, 3},
+        {"rough 0.1", RoughConductor({kShadedWhite, 0.1}), 4},
+        {"rough 0.5", RoughConductor({kShadedWhite, 0.5}), 2},
+        {"ward", Ward({Rgb::grey(0.3), Rgb::grey(0.7), {0.1, 0.4}, 30}), 3},
+        {"plastic", Plastic({kShadedWhite, 1.5, 0.2}), 3}};
     return cases;
 }
 
@@ -56,7 +57,7 @@ constexpr std::array<double, 4> kTilts{5, 20, 40, 60};
 TEST(ShadedSurface, IsTheMaterialItselfWhereNormalsAreTheSame) {
     RandomPairs random(1);
     const Vec3 normal = normalized(Vec3{0.3, 0.4, -0.2});
-    for (const Case& of : scattering()) {
+    for (const ShadedCase& of : scattering()) {
         const ShadedSurface surface(of.material, normal, normal);
         EXPECT_FALSE(surface.is_bent());
         for (int i = 0; i < 100; ++i) {
@@ -117,7 +118,7 @@ TEST(ShadedSurface, ShowsAMattSurfaceAsTheShadingNormalWould) {
 }
 
 /// The luminance along `out` in surroundings of luminance 1, by quadrature.
-double seen_in_furnace(const Case& of, const ShadedSurface& surface, const Vec3& out) {
+double seen_in_furnace(const ShadedCase& of, const ShadedSurface& surface, const Vec3& out) {
     const Vec3 mirrored_out = reflected(out, surface.shading().w);
     return DirectionGrid(0, mirrored_out, of.concentration).integrate_all([&](const Vec3& in) {
         return surface.brdf_per_sr(in, out)[1] * in.z;
@@ -128,7 +129,7 @@ TEST(ShadedSurface, IsNeverBrighterThanItsSurroundings) {
     // The white material's own albedo is 1 within the errors of its table and of the quadrature.
     constexpr double kTolerance = 0.004;
     double largest = 0;
-    for (const Case& of : scattering()) {
+    for (const ShadedCase& of : scattering()) {
         for (const double tilt : {20.0, 60.0}) {
             const ShadedSurface surface = bent(of.material, tilt);
             for (const double theta : {0.0, 60.0, 85.0, 89.99}) {
@@ -145,7 +146,7 @@ TEST(ShadedSurface, IsNeverBrighterThanItsSurroundings) {
 
 /// The density of a sampler and its samples, over the grid's cells.
 template <typename Draw, typename Pdf>
-void expect_density(const Case& of, const Vec3& focus, const Draw& draw, const Pdf& pdf, double least_p,
+void expect_density(const ShadedCase& of, const Vec3& focus, const Draw& draw, const Pdf& pdf, double least_p,
                     const std::string& what) {
     const auto direction_of = [&](double u1, double u2) -> std::optional<Vec3> {
         const auto sample = draw(u1, u2);
@@ -159,7 +160,7 @@ void expect_density(const Case& of, const Vec3& focus, const Draw& draw, const P
 TEST(ShadedSurface, SamplesHaveTheirWeightsAndDensities) {
     constexpr double kLeast = 1e-5;  // of some 100 comparisons
     RandomPairs random(3);
-    for (const Case& of : scattering()) {
+    for (const ShadedCase& of : scattering()) {
         for (const double tilt : {10.0, 60.0}) {
             const ShadedSurface surface = bent(of.material, tilt);
             for (const Vec3& known : {at(20, 10), at(75, 215), at(85, 40)}) {
@@ -203,7 +204,7 @@ double apart_z(const Mean& a, const Mean& b) {
 TEST(ShadedSurface, MakesTheSameLightFromBothSides) {
     // The integral of importance f* light cos cos over both directions.
     double worst = 0;
-    for (const Case& of : scattering()) {
+    for (const ShadedCase& of : scattering()) {
         for (const double tilt : kTilts) {
             const ShadedSurface surface = bent(of.material, tilt);
             RandomPairs random(static_cast<std::uint64_t>(tilt));
@@ -292,7 +293,7 @@ TEST(ShadedSurface, RefractsTheSameLightFromBothSides) {
 TEST(ShadedSurface, BoundsTheFluxOfParticles) {
     RandomPairs random(11);
     for (const double tilt : kTilts) {
-        const Material matt = Diffuse{kWhite}, mirror = Mirror{kWhite};
+        const Material matt = Diffuse{kShadedWhite}, mirror = Mirror{kShadedWhite};
         const ShadedSurface diffuse = bent(matt, tilt), specular = bent(mirror, tilt);
         for (int i = 0; i < 20'000; ++i) {
             const auto [u1, u2] = random.next_pair();
@@ -310,7 +311,7 @@ TEST(ShadedSurface, BoundsTheFluxOfParticles) {
 }
 
 TEST(ShadedSurface, LeavesPanesFlat) {
-    const Material pane = ThinDielectric{1.5, kWhite};
+    const Material pane = ThinDielectric{1.5, kShadedWhite};
     const ShadedSurface surface = bent(pane, 20);
     const Vec3 in = at(40, 10);
     const SpecularBranches own = specular_branches(pane, LightSide::outside, in);

@@ -10,11 +10,11 @@
 namespace stilb::materials {
 namespace {
 
-Vec3 incident(double degrees) {
+Vec3 arriving_at(double degrees) {
     const double theta = degrees * std::numbers::pi / 180;
     return {std::sin(theta) * std::cos(0.7), std::sin(theta) * std::sin(0.7), std::cos(theta)};
 }
-double cosine(double degrees) { return incident(degrees).z; }
+double cosine(double degrees) { return arriving_at(degrees).z; }
 
 constexpr std::array<double, 7> kDegrees{0, 20, 40, 60, 80, 89, 89.9999};
 
@@ -46,7 +46,7 @@ TEST(Fresnel, IsTheSameInBothDirections) {
 TEST(GlassMaterial, KeepsAllLightAndObeysSnell) {
     for (const double degrees : kDegrees) {
         for (const LightSide side : {LightSide::outside, LightSide::inside}) {
-            const Vec3 in = incident(degrees);
+            const Vec3 in = arriving_at(degrees);
             const double ior = side == LightSide::outside ? 1.5 : 1 / 1.5;
             const double chance = fresnel_reflectance(in.z, ior).unpolarised();
             const SpecularBranches branches = specular_branches(Dielectric{1.5}, side, in);
@@ -70,7 +70,7 @@ TEST(GlassMaterial, KeepsAllLightAndObeysSnell) {
 
 TEST(GlassMaterial, LuminanceComesBackFromWithin) {
     // Back along the same way, seen in the frame of the inside, whose z points the other way.
-    const Vec3 in = incident(50);
+    const Vec3 in = arriving_at(50);
     const SpecularBranches entered = specular_branches(Dielectric{1.7}, LightSide::outside, in);
     const Vec3 down = entered.list()[1].direction;
     const SpecularBranches left =
@@ -106,7 +106,7 @@ TEST(PaneMaterial, KeepsAllLightWhereNothingIsAbsorbedInside) {
 TEST(PaneMaterial, ReflectsAndLetsPassStraightOn) {
     const ThinDielectric pane{1.52, {{0.9, 0.8, 0.3}}};
     for (const double degrees : kDegrees) {
-        const Vec3 in = incident(degrees);
+        const Vec3 in = arriving_at(degrees);
         const ThinDielectric::Shares shares = pane.shares(in.z);
         for (const LightSide side : {LightSide::outside, LightSide::inside}) {
             const SpecularBranches branches = specular_branches(pane, side, in);
@@ -121,7 +121,7 @@ TEST(PaneMaterial, ReflectsAndLetsPassStraightOn) {
 }
 
 TEST(MirrorMaterial, ReflectsIntoTheMirroredDirection) {
-    const Vec3 in = incident(35);
+    const Vec3 in = arriving_at(35);
     const SpecularBranches branches = specular_branches(Mirror{Rgb::grey(0.9)}, LightSide::inside, in);
     ASSERT_EQ(branches.list().size(), 1u);
     EXPECT_EQ(branches.list()[0].share, Rgb::grey(0.9));
@@ -134,8 +134,8 @@ TEST(SpecularMaterials, ReflectNothingFromBelow) {
          {Material(Mirror{Rgb::grey(1)}), Material(Dielectric{}), Material(ThinDielectric{})}) {
         EXPECT_TRUE(is_specular(material));
         EXPECT_TRUE(specular_branches(material, LightSide::outside, {0, 0, -1}).list().empty());
-        EXPECT_FALSE(sample_brdf(material, incident(20), 0.5, 0.5)) << "has no density to draw from";
-        EXPECT_EQ(evaluate_brdf_per_sr(material, incident(20), incident(20)), Rgb{});
+        EXPECT_FALSE(sample_brdf(material, arriving_at(20), 0.5, 0.5)) << "has no density to draw from";
+        EXPECT_EQ(evaluate_brdf_per_sr(material, arriving_at(20), arriving_at(20)), Rgb{});
     }
 }
 

@@ -12,7 +12,7 @@
 namespace stilb::math {
 namespace {
 
-constexpr double kLeastP = 1e-4;
+constexpr double kLeastChance = 1e-4;
 
 TEST(Sobol, HasTheDirectionNumbersOfBoost) {
     // boost's i-th point is that of index gray(i + 1): it begins with point 1 and changes one bit a step.
@@ -91,7 +91,7 @@ TEST(SampleStream, EveryPointIsUniformOverKeys) {
         for (const unsigned dimension : {0u, 1u, 2u, 7u, 31u, 32u, 35u, 100u}) {
             std::vector<double> numbers;
             for (int key = 0; key < kKeys; ++key) numbers.push_back(coordinate(key, index, dimension));
-            EXPECT_GT(statistics::uniformity_p(numbers), kLeastP)
+            EXPECT_GT(statistics::uniformity_p(numbers), kLeastChance)
                 << "point " << index << ", dimension " << dimension;
         }
     }
@@ -101,7 +101,7 @@ TEST(SampleStream, IsUniformBeyondTheSobolDimensions) {
     for (const unsigned dimension : {32u, 33u, 34u, 35u, 36u, 200u}) {
         std::vector<double> numbers;
         for (std::uint64_t i = 0; i < 20'000; ++i) numbers.push_back(coordinate(5, i, dimension));
-        EXPECT_GT(statistics::uniformity_p(numbers), kLeastP) << dimension;
+        EXPECT_GT(statistics::uniformity_p(numbers), kLeastChance) << dimension;
     }
 }
 
@@ -126,11 +126,11 @@ TEST(SampleStream, KeysAndDimensionsAreIndependent) {
         const auto over_keys = [&](int i) {
             return std::pair{coordinate(2 * i, 3, d), coordinate(2 * i + 1, 3, d)};
         };
-        EXPECT_GT(independence_p(kPairs, over_keys), kLeastP) << "keys, dimension " << d;
+        EXPECT_GT(independence_p(kPairs, over_keys), kLeastChance) << "keys, dimension " << d;
         const auto over_dimensions = [&](int i) {
             return std::pair{coordinate(i, 3, d), coordinate(i, 3, d + 1)};
         };
-        EXPECT_GT(independence_p(kPairs, over_dimensions), kLeastP) << "dimensions " << d << " and next";
+        EXPECT_GT(independence_p(kPairs, over_dimensions), kLeastChance) << "dimensions " << d << " and next";
     }
     // Two derived keys' sequences: pairs of equal index must not follow each other.
     for (const unsigned d : {0u, 1u, 31u, 32u}) {

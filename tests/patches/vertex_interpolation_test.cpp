@@ -74,14 +74,14 @@ Mesh uneven_square() {
     return mesh;
 }
 
-Scene scene_of(const Shape& shape) {
+Scene scene_with(const Shape& shape) {
     Scene scene;
     add_object(scene, shape, diffuse(0.5));
     return scene;
 }
 
 TEST(VertexInterpolation, KeepsConstants) {
-    Scene scene = scene_of(uneven_square());
+    Scene scene = scene_with(uneven_square());
     add_object(scene, Sphere{{2, 2, 2}, 1}, diffuse(0.5));
     add_object(scene, Box{{4, 4, 4}, {5, 6, 7}}, diffuse(0.5));
     const auto three = [](const Vec3&) { return 3.0; };
@@ -94,7 +94,7 @@ TEST(VertexInterpolation, IsExactForLinearFunctionsAwayFromRims) {
         return std::min({p.x, p.y, 1 - p.x, 1 - p.y}) > 0.15;  // more than one patch
     };
     for (const double size_m : {0.2, 0.1, 0.05}) {
-        const Field field(scene_of(uneven_square()), size_m, linear);
+        const Field field(scene_with(uneven_square()), size_m, linear);
         EXPECT_LT(largest_error(field, linear, is_inner), 1e-5) << size_m;
         EXPECT_LT(largest_error(field, linear, everywhere), 8 * size_m)
             << "first order along rims: " << size_m;
@@ -105,7 +105,7 @@ TEST(VertexInterpolation, IsExactForLinearFunctionsAwayFromRims) {
 TEST(VertexInterpolation, IsOfSecondOrderOnRoundSurfaces) {
     const auto height = [](const Vec3& p) { return p.z; };
     const auto error = [&](double size_m) {
-        return largest_error(Field(scene_of(Sphere{{0, 0, 0}, 1}), size_m, height), height, everywhere);
+        return largest_error(Field(scene_with(Sphere{{0, 0, 0}, 1}), size_m, height), height, everywhere);
     };
     EXPECT_LT(error(0.1), 0.01);
     EXPECT_GT(error(0.1) / error(0.025), 10);
@@ -126,7 +126,7 @@ TEST(SmoothVertices, AreDividedBeyondFortyDegrees) {
 
 TEST(VertexInterpolation, StaysBetweenThePatchesAround) {
     const auto step = [](const Vec3& p) { return p.x < 0.43 ? 0.0 : 1.0; };
-    const Field field(scene_of(uneven_square()), 0.07, step);
+    const Field field(scene_with(uneven_square()), 0.07, step);
     const auto [least, most] = std::ranges::minmax(field.at_vertices);
     EXPECT_GE(least, 0);
     EXPECT_LE(most, 1 + 1e-6);
@@ -138,7 +138,7 @@ TEST(VertexInterpolation, DoesNotLeakAcrossEdgesAndMaterials) {
         constexpr double e = 1e-6;
         return p.x < e ? 1.0 : p.x > 1 - e ? 2.0 : p.y < e ? 3.0 : p.y > 1 - e ? 4.0 : p.z < e ? 5.0 : 6.0;
     };
-    const Field box(scene_of(Box{{0, 0, 0}, {1, 1, 1}}), 0.1, face);
+    const Field box(scene_with(Box{{0, 0, 0}, {1, 1, 1}}), 0.1, face);
     for (std::uint32_t p = 0; p < box.patches.count(); ++p) {
         for (const math::Barycentric& place : kPlaces)
             EXPECT_NEAR(box.at(p, place), face(box.patches.middle(p)), 1e-5);
@@ -164,7 +164,7 @@ TEST(VertexInterpolation, DoesNotLeakAcrossAFoldThatEnds) {
     const Mesh mesh{{{0, 0, 0}, {0, 1, 0.3}, {-0.5, 1, 0}, {0.5, 1, 0}, {-1, -1, 0}, {1, -1, 0}},
                     {{0, 1, 2}, {0, 3, 1}, {0, 2, 4}, {0, 4, 5}, {0, 5, 3}}};
     const auto side = [](const Vec3& p) { return p.x < 0 ? 1.0 : 2.0; };
-    const Field field(scene_of(mesh), 0.1, side);
+    const Field field(scene_with(mesh), 0.1, side);
     const auto is_end = [&](const Float3& v) { return length(field.patches.center + Vec3(v)) < 1e-6; };
     EXPECT_EQ(std::ranges::count_if(field.patches.vertices, is_end), 1);
     for (std::uint32_t p = 0; p < field.patches.count(); ++p) {
@@ -186,14 +186,14 @@ TEST(VertexInterpolation, KnowsRoundFromEdged) {
             tube.triangles.push_back({a, b, b + 1});
             tube.triangles.push_back({a, b + 1, a + 1});
         }
-        return make_patches(scene_of(tube), 10).vertices.size() / (2 * sides);
+        return make_patches(scene_with(tube), 10).vertices.size() / (2 * sides);
     };
     EXPECT_EQ(vertices_at_a_place(12), 1u);
     EXPECT_EQ(vertices_at_a_place(6), 2u);
 }
 
 TEST(VertexInterpolation, TakesAnythingThatCanBeAveraged) {
-    const Patches patches = make_patches(scene_of(Sphere{{0, 0, 0}, 1}), 0.2);
+    const Patches patches = make_patches(scene_with(Sphere{{0, 0, 0}, 1}), 0.2);
     const VertexInterpolation interpolation(patches);
     const std::vector<Rgb> colours(patches.count(), Rgb{{1, 2, 3}});
     const std::vector<Vec3> normals(patches.count(), Vec3{3, 2, 1});

@@ -28,7 +28,7 @@ io::Picture with_block(int width, int height, float value) {
     return picture;
 }
 
-FalseColourOptions zero_to_hundred() {
+FalseColourOptions up_to_hundred() {
     FalseColourOptions options;
     options.minimum = 0;
     options.maximum = 100;
@@ -48,7 +48,7 @@ Spot find_value(const PngPixels& pixels, double fraction) {
 }
 
 TEST(FalseColourPicture, DrawsEachPixelAsOneOfThePng) {
-    const PngPixels pixels = draw(with_block(1200, 300, 60), zero_to_hundred());
+    const PngPixels pixels = draw(with_block(1200, 300, 60), up_to_hundred());
     const Spot block = find_value(pixels, 0.6);
     EXPECT_EQ(block.count, 100);
     const Spot rest = find_colour(pixels, ColourMap().at(0.1), pixels.width * 9 / 10);
@@ -59,33 +59,33 @@ TEST(FalseColourPicture, DrawsEachPixelAsOneOfThePng) {
 
 TEST(FalseColourPicture, MagnifiesSmallPicturesSharply) {
     // 100 x 50: ten pixels of the PNG for each, as rectangles; 250 x 100: four, as an image.
-    EXPECT_EQ(find_value(draw(with_block(100, 50, 60), zero_to_hundred()), 0.6).count, 10000);
-    EXPECT_EQ(find_value(draw(with_block(250, 100, 60), zero_to_hundred()), 0.6).count, 1600);
+    EXPECT_EQ(find_value(draw(with_block(100, 50, 60), up_to_hundred()), 0.6).count, 10000);
+    EXPECT_EQ(find_value(draw(with_block(250, 100, 60), up_to_hundred()), 0.6).count, 1600);
 }
 
 TEST(FalseColourPicture, AveragesVeryLargePictures) {
-    const PngPixels pixels = draw(with_block(8192, 40, 60), zero_to_hundred());
+    const PngPixels pixels = draw(with_block(8192, 40, 60), up_to_hundred());
     EXPECT_NEAR(find_value(pixels, 0.6).count, 25, 12);
     EXPECT_LT(pixels.width, 4600);
 }
 
 TEST(FalseColourPicture, HatchesWhatHasNoValue) {
-    const PngPixels holes = draw(with_block(250, 100, NAN), zero_to_hundred());
+    const PngPixels holes = draw(with_block(250, 100, NAN), up_to_hundred());
     EXPECT_GT(find_colour(holes, io::grey(0.86)).count, 800);
     EXPECT_GT(find_colour(holes, io::grey(0.62)).count, 20);
-    const PngPixels whole = draw(with_block(250, 100, 50), zero_to_hundred());
+    const PngPixels whole = draw(with_block(250, 100, 50), up_to_hundred());
     EXPECT_LT(find_colour(whole, io::grey(0.86)).count, 100);  // some pixels of the writing
 
     io::Picture fisheye = with_block(200, 200, 10);
     fisheye.camera = io::sample_camera(Projection::fisheye);
     fisheye.camera->resolution = {200, 200};
-    const PngPixels circle = draw(fisheye, zero_to_hundred());
+    const PngPixels circle = draw(fisheye, up_to_hundred());
     const Spot seen = find_value(circle, 0.1);
     EXPECT_NEAR(seen.count / 25.0, 0.7854 * 200 * 200, 300);
 }
 
 TEST(FalseColourPicture, LogarithmicScaleTakesDarkPixelsToItsLowestColour) {
-    FalseColourOptions options = zero_to_hundred();
+    FalseColourOptions options = up_to_hundred();
     options.scale = ScaleType::logarithmic;
     options.minimum = 1;
     const PngPixels pixels = draw(with_block(100, 50, 0), options);
@@ -101,7 +101,7 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
         const float grey = static_cast<float>(i % 1000) / 10;  // 0 to 100 cd/m2, from left to right
         ramp.rgb_cd_m2.push_back({grey, grey, grey});
     }
-    FalseColourOptions options = zero_to_hundred();
+    FalseColourOptions options = up_to_hundred();
     const PngPixels plain = draw(ramp, options);
     options.isolines = true;
     const PngPixels lines = draw(ramp, options);
@@ -149,7 +149,7 @@ TEST(FalseColourPicture, DrawsPicturesWithoutAnyValue) {
 }
 
 TEST(FalseColourPicture, SaysWhatIsWrong) {
-    FalseColourOptions options = zero_to_hundred();
+    FalseColourOptions options = up_to_hundred();
     EXPECT_THROW(draw_false_colour(with_block(20, 20, 1), "", options, "a.jpg"), InputError);
     options.maximum = -1;
     EXPECT_THROW(draw(with_block(20, 20, 1), options), InputError);

@@ -19,7 +19,7 @@ PngPixels draw(const PolarPlot& plot) {
 }
 
 /// Markers in the palette's first colour, on a scale to 10: the last one, of another colour, stands there.
-Spot marker_at(double theta_deg, double value) {
+Spot polar_marker_at(double theta_deg, double value) {
     const auto points = [](double x, double y) {
         Series series{"", {x}, {y}};
         series.line = LineStyle::none;
@@ -32,16 +32,16 @@ Spot marker_at(double theta_deg, double value) {
 constexpr double kRadius = 620;  // in pixels
 
 TEST(PolarPlot, PutsPointsWhereTheyBelong) {
-    const Spot centre = marker_at(0, 0);
+    const Spot centre = polar_marker_at(0, 0);
     ASSERT_GT(centre.count, 30);
     for (const double theta_deg : {-90.0, -30.0, 0.0, 60.0, 90.0}) {
         const double theta = theta_deg * std::numbers::pi / 180;
-        const Spot spot = marker_at(theta_deg, 5);
+        const Spot spot = polar_marker_at(theta_deg, 5);
         EXPECT_NEAR(spot.x - centre.x, kRadius / 2 * std::sin(theta), 1) << theta_deg;
         EXPECT_NEAR(spot.y - centre.y, -kRadius / 2 * std::cos(theta), 1) << theta_deg;
     }
-    EXPECT_NEAR(marker_at(40, -1).x, centre.x, 1);
-    EXPECT_EQ(marker_at(40, NAN).count, 0);
+    EXPECT_NEAR(polar_marker_at(40, -1).x, centre.x, 1);
+    EXPECT_EQ(polar_marker_at(40, NAN).count, 0);
 }
 
 TEST(PolarPlot, EqualValuesAreAnArc) {

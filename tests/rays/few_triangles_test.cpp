@@ -13,7 +13,7 @@ namespace stilb::rays {
 namespace {
 
 constexpr double kRadius_m = 10;
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 
 LaneMask lanes_up_to(std::size_t count) {
     LaneMask lanes{};
@@ -42,7 +42,7 @@ TEST(FewTriangles, HaveTheHitsOfEmbree) {
             const auto [u1, u2] = random.next_pair();
             rays[i] = {{0.1 + 3.8 * x, 0.1 + 2.8 * y, 0.1 + 2.3 * random.next()},
                        math::sample_sphere(u1, u2).direction};
-            packet.ray.set(i, rays[i].origin - caster.center(), rays[i].direction, kInfinity);
+            packet.ray.set(i, rays[i].origin - caster.center(), rays[i].direction, kFloatInfinity);
         }
         caster.closest(packet, lanes_up_to(kPacketWidth), Coherence::scattered);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
@@ -104,7 +104,7 @@ TEST(FewTriangles, LoseNoRays) {
                 const auto [u1, u2] = random.next_pair();
                 const Vec3 direction = i % 4 == 3 ? math::sample_sphere(u1, u2).direction
                                                   : normalized(a + along * (b - a) - closed.inside);
-                packet.ray.set(i, closed.inside - caster.center(), direction, kInfinity);
+                packet.ray.set(i, closed.inside - caster.center(), direction, kFloatInfinity);
             }
             RayPacket segments = packet.ray;
             segments.end.fill(100);
@@ -150,7 +150,7 @@ TEST(FewTriangles, LeaveOpeningsAsTheyAre) {
                     const auto [u, v] = random.next_pair();
                     const Vec3 origin =
                         std::min(opening_m, size_m / 4) * Vec3{0.5 + u, v - 0.5, random.next() - 0.5};
-                    packet.ray.set(i, origin, at - origin, kInfinity);
+                    packet.ray.set(i, origin, at - origin, kFloatInfinity);
                     segments.set(i, origin, 1.5 * (at - origin), 1);
                 }
                 caster.closest(packet, lanes_up_to(kPacketWidth), Coherence::scattered);
@@ -171,7 +171,7 @@ TEST(FewTriangles, MissWhatIsBesideAnEdgeWhereverElseSomethingLies) {
     triangles.add(1, 0, {{{1e6f, -1e6f, -1e6f}, {1e6f, 1e6f, -1e6f}, {1e6f, 0, 1e6f}}});
     RayHitPacket packet;
     for (std::size_t i = 0; i < kPacketWidth; ++i)
-        packet.ray.set(i, {0, i % 2 == 0 ? -1e-7 : 1e-7, 0}, {1, 0, 0}, kInfinity);
+        packet.ray.set(i, {0, i % 2 == 0 ? -1e-7 : 1e-7, 0}, {1, 0, 0}, kFloatInfinity);
     triangles.closest(packet, lanes_up_to(kPacketWidth));
     for (std::size_t i = 0; i < kPacketWidth; ++i) EXPECT_EQ(packet.object[i], i % 2 == 0 ? 1 : 0) << i;
 }
@@ -192,7 +192,7 @@ TEST(FewTriangles, SetOnlyTheirLanes) {
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         EXPECT_EQ(packet.object[i], i < 2 ? 3 : kNothing);
         EXPECT_EQ(packet.ray.end[i], i < 2 ? 1 : 7);
-        EXPECT_EQ(segments.end[i], i < 2 ? -kInfinity : 7);
+        EXPECT_EQ(segments.end[i], i < 2 ? -kFloatInfinity : 7);
     }
     EXPECT_EQ(packet.primitive[0], 5);
     EXPECT_NEAR(packet.u[0], 1.0f / 3, 1e-6f);

@@ -18,7 +18,6 @@
 namespace stilb::run {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
 const Vec3 kFacing = normalized(Vec3{1, -2, 0});
 const Vec3 kTilted = normalized(Vec3{1, -2, 3});
 
@@ -39,7 +38,7 @@ std::vector<std::string> all_methods() {
     return methods;
 }
 
-RunOptions options_for(const std::string& method, std::uint64_t paths, std::uint64_t seed = 1) {
+RunOptions body_options(const std::string& method, std::uint64_t paths, std::uint64_t seed = 1) {
     RunOptions options;
     options.method = method;
     options.paths = method == "ray-bundle" ? paths / 16 : paths;  // a step does more than a path
@@ -74,7 +73,7 @@ TEST_P(BodiesBy, APointSource) {
     Scene scene;
     add_object(scene, Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, Black{});
     add_point_light(scene, source, Rgb::grey(intensity_cd));
-    const RunResult result = measure(scene, bodies_at(at), options_for(GetParam(), 64));
+    const RunResult result = measure(scene, bodies_at(at), body_options(GetParam(), 64));
 
     const Vec3 way = normalized(source - at);
     const double normal_lx = intensity_cd / squared_length(source - at);
@@ -91,7 +90,7 @@ TEST_P(BodiesBy, AFurnace) {
     Scene scene;
     add_area_light(scene, inward({{0, 0, 0}, {4, 3, 2.8}}), Rgb::grey(luminance), diffuse(reflectance));
     const double exact_lx = exact::furnace_illuminance_lx(luminance, reflectance);
-    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 1.1}), options_for(GetParam(), 1 << 15));
+    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 1.1}), body_options(GetParam(), 1 << 15));
     expect_exact(result, {exact_lx, exact_lx, exact_lx, exact_lx}, 1e-6);
 }
 
@@ -105,7 +104,7 @@ TEST_P(BodiesBy, AUniformHalfSpace) {
         if (axis < 2) add_area_light(scene, wall(upper, axis, Side::low), Rgb::grey(luminance));
         add_area_light(scene, wall(upper, axis, Side::high), Rgb::grey(luminance));
     }
-    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 1}), options_for(GetParam(), 1 << 15));
+    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 1}), body_options(GetParam(), 1 << 15));
     const double half = kPi * luminance / 2;
     expect_exact(result, {half, half, half * (1 + kTilted.z / 2), half}, 1e-6);
 }
@@ -145,7 +144,7 @@ TEST_P(BodiesBy, ADiskLight) {
     const auto lx = [&](const Vec3& normal) {
         return exact::illuminance_by_disk_lx({at, normal}, disk, luminance);
     };
-    const RunResult result = measure(scene, bodies_at(at), options_for(GetParam(), 1 << 14));
+    const RunResult result = measure(scene, bodies_at(at), body_options(GetParam(), 1 << 14));
     expect_exact(result, means_over_bodies(lx), 1e-5);
 }
 
@@ -156,7 +155,7 @@ TEST_P(BodiesBy, AFurnaceOnItsFloor) {
     Scene scene;
     add_area_light(scene, inward({{0, 0, 0}, {4, 3, 2.8}}), Rgb::grey(luminance), diffuse(reflectance));
     const double half = exact::furnace_illuminance_lx(luminance, reflectance) / 2;
-    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 0}), options_for(GetParam(), 1 << 15));
+    const RunResult result = measure(scene, bodies_at({1.3, 0.7, 0}), body_options(GetParam(), 1 << 15));
     expect_exact(result, {half, half, half * (1 + kTilted.z / 2), half}, 1e-5);
 }
 
@@ -174,7 +173,7 @@ TEST(Bodies, OnTheAxisOfADiskLight) {
     add_area_light(scene, Disk{at + height * kUp, -kUp, radius}, Rgb::grey(luminance));
     const double angle = std::atan2(radius, height), c = std::cos(angle), s = std::sin(angle);
     const double round = luminance * (angle - s * c);
-    const RunResult result = measure(scene, bodies_at(at), options_for("auto", 1 << 16));
+    const RunResult result = measure(scene, bodies_at(at), body_options("auto", 1 << 16));
     expect_exact(
         result,
         {round, round, kPi * luminance / 2 * (1 - c + kTilted.z * s * s / 2), kPi * luminance / 2 * (1 - c)},
@@ -208,8 +207,8 @@ TEST(Bodies, CylindersReadTheMeanOfVerticalIlluminances) {
     for (const std::string method : {"auto", "path"}) {
         const std::uint64_t paths = (method == "auto" ? 1 << 16 : 1 << 12) / fewer;
         const RunResult bodies =
-            measure(furnished(), bodies_at(at), options_for(method, (1 << 17) / fewer, 11));
-        const RunResult means = measure(furnished(), elements, options_for(method, paths, 12));
+            measure(furnished(), bodies_at(at), body_options(method, (1 << 17) / fewer, 11));
+        const RunResult means = measure(furnished(), elements, body_options(method, paths, 12));
         for (std::size_t b = 0; b < 2; ++b) {
             const statistics::Estimate body = estimate(bodies, b), mean = means.sensors[b].summary.mean;
             EXPECT_LT(body.standard_error, 0.004 * factor * body.value) << method << " " << b;
@@ -225,9 +224,9 @@ TEST(Bodies, PatchMethodsAgreeWithPathTracing) {
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.6));
     add_area_light(scene, Rectangle{{0.8, 0.5, 2.6}, {0, 1, 0}, {1.4, 0, 0}}, Rgb::grey(500));
     const std::vector<Sensor> bodies = bodies_at({1.2, 1.9, 1.3});
-    const RunResult exact = measure(scene, bodies, options_for("auto", 1 << 17));
+    const RunResult exact = measure(scene, bodies, body_options("auto", 1 << 17));
     for (const std::string method : {"ray-bundle", "radiosity", "particles"}) {
-        RunOptions options = options_for(method, method == "particles" ? 1 << 19 : 1 << 13);
+        RunOptions options = body_options(method, method == "particles" ? 1 << 19 : 1 << 13);
         options.patches.patch_m = 0.45;
         const RunResult result = measure(scene, bodies, options);
         for (std::size_t b = 0; b < 4; ++b) {
@@ -244,9 +243,9 @@ TEST(Bodies, ShareARunWithSurfaceElements) {
     std::vector<Sensor> together{{"desk", Grid{{0.2, 0.2, 0.8}, {3.4, 0, 0}, {0, 2.6, 0}, {3, 3}}}};
     for (const Sensor& body : bodies_at(at)) together.push_back(body);
     const std::vector<Sensor> desk(together.begin(), together.begin() + 1);
-    const RunResult alone = measure(furnished(), desk, options_for("auto", 1 << 17, 21));
-    const RunResult bodies = measure(furnished(), bodies_at(at), options_for("auto", 1 << 17, 22));
-    const RunResult both = measure(furnished(), together, options_for("auto", 1 << 17, 23));
+    const RunResult alone = measure(furnished(), desk, body_options("auto", 1 << 17, 21));
+    const RunResult bodies = measure(furnished(), bodies_at(at), body_options("auto", 1 << 17, 22));
+    const RunResult both = measure(furnished(), together, body_options("auto", 1 << 17, 23));
     for (std::size_t j = 0; j < desk[0].size(); ++j) {
         const statistics::Estimate a = both.sensors[0].readings[j].estimate;
         const statistics::Estimate b = alone.sensors[0].readings[j].estimate;

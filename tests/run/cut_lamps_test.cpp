@@ -36,8 +36,8 @@ Scene room_of_one_mesh() {
     return scene;
 }
 
-std::vector<statistics::Estimate> readings_of(const Scene& scene, const Sensor& sensor,
-                                              std::string_view method, std::uint64_t seed) {
+std::vector<statistics::Estimate> readings_under_cut_lamps(const Scene& scene, const Sensor& sensor,
+                                                           std::string_view method, std::uint64_t seed) {
     RunOptions options;
     options.method = method;
     options.paths = 256;
@@ -51,8 +51,8 @@ std::vector<statistics::Estimate> readings_of(const Scene& scene, const Sensor& 
 
 /// Both rooms by one method, with seeds of their own.
 void expect_equal(const Sensor& sensor, std::string_view method) {
-    const auto mesh = readings_of(room_of_one_mesh(), sensor, method, 1),
-               rectangles = readings_of(room_of_rectangles(), sensor, method, 2);
+    const auto mesh = readings_under_cut_lamps(room_of_one_mesh(), sensor, method, 1),
+               rectangles = readings_under_cut_lamps(room_of_rectangles(), sensor, method, 2);
     for (std::size_t i = 0; i < mesh.size(); ++i) {
         // Intervals contain the error of patches, for methods that have them.
         const double error =
@@ -72,7 +72,8 @@ TEST(CutLamps, LightTheRoomAsRectanglesDo) {
 TEST(CutLamps, AreSeen) {
     const Sensor sight{"sight", Luminance{{LineOfSight{{1, 1, 1}, normalized({0.3, 0.2, 1})}}}};
     for (const std::string_view method : estimators::luminance_methods()) expect_equal(sight, method);
-    EXPECT_GT(readings_of(room_of_one_mesh(), sight, "path", 1)[0].lower, 1.05 * kLuminance.luminance());
+    EXPECT_GT(readings_under_cut_lamps(room_of_one_mesh(), sight, "path", 1)[0].lower,
+              1.05 * kLuminance.luminance());
 }
 
 }  // namespace

@@ -20,22 +20,22 @@
 namespace stilb::run {
 namespace {
 
-constexpr double kLuminance = 100, kReflectance = 0.5;
+constexpr double kWallLuminance = 100, kWallReflectance = 0.5;
 /// In a furnace, and everywhere in it.
-constexpr double kFurnace_cd_m2 = kLuminance / (1 - kReflectance);
-const Box kRoom{{0, 0, 0}, {2, 2, 2}};
+constexpr double kFurnace_cd_m2 = kWallLuminance / (1 - kWallReflectance);
+const Box kCube{{0, 0, 0}, {2, 2, 2}};
 const Box kStanding{{0.5, 0.5, 0}, {1.2, 0.9, 0.6}};
 
 void add_furnace(Scene& scene, const Shape& shape) {
-    add_area_light(scene, shape, Rgb::grey(kLuminance), diffuse(kReflectance));
+    add_area_light(scene, shape, Rgb::grey(kWallLuminance), diffuse(kWallReflectance));
 }
 
 /// In one mesh, and in six objects; with a box that stands on the floor, whose inside is dark.
 std::vector<Scene> furnaces() {
     std::vector<Scene> scenes(2);
-    add_furnace(scenes[0], inward(kRoom));
+    add_furnace(scenes[0], inward(kCube));
     for (std::size_t i = 0; i < 6; ++i)
-        add_furnace(scenes[1], wall(kRoom, i / 2, i % 2 == 0 ? Side::low : Side::high));
+        add_furnace(scenes[1], wall(kCube, i / 2, i % 2 == 0 ? Side::low : Side::high));
     for (Scene& scene : scenes) add_furnace(scene, kStanding);
     return scenes;
 }
@@ -66,7 +66,7 @@ std::vector<Point> points_on_edges() {
             {"in its side", {{0.5, 0.7, 0.3}, up}}};
 }
 
-Sensor sights() {
+Sensor edge_sights() {
     const Vec3 eye{0.1, 0.3, 1};
     std::vector<Measurand> lines;
     for (const Vec3& end : {Vec3{2, 2, 2}, Vec3{2, 2, 1}, Vec3{2, 1, 0}, Vec3{2, 2, 1.99999},
@@ -89,7 +89,7 @@ std::vector<std::string> methods() {
     return names;
 }
 
-RunOptions options_for(const std::string& method) {
+RunOptions edge_options(const std::string& method) {
     RunOptions options;
     options.method = method;
     options.paths =
@@ -119,10 +119,10 @@ TEST_P(EdgePointsBy, ReadTheFurnacesTheyAreIn) {
     const std::vector<Point> points = points_on_edges();
     std::vector<MeasuringPoint> at;
     for (const Point& point : points) at.push_back(point.point);
-    const std::vector<Sensor> sensors{point_sensor(at), sights()};
+    const std::vector<Sensor> sensors{point_sensor(at), edge_sights()};
     for (const Scene& scene : furnaces()) {
         SCOPED_TRACE(scene.objects.size() == 2 ? "one mesh" : "six objects");
-        const RunResult result = measure(scene, sensors, options_for(method));
+        const RunResult result = measure(scene, sensors, edge_options(method));
         expect_exact(result.sensors[0], result.replicates, kPi * kFurnace_cd_m2, 1e-3, points);
         expect_exact(result.sensors[1], result.replicates, kFurnace_cd_m2, 1e-3);
     }
@@ -183,7 +183,7 @@ TEST(EdgePoints, StayOnTheirSideOfAWall) {
 TEST(EdgePoints, ASphereOnAnEdgeSeesTheUpperHalf) {
     const std::vector<Sensor> spheres{{"spheres", Spherical{{{0, 1, 0}, {2, 2, 0}}}}};
     for (const Scene& scene : furnaces()) {
-        const RunResult result = measure(scene, spheres, options_for("path"));
+        const RunResult result = measure(scene, spheres, edge_options("path"));
         expect_exact(result.sensors[0], result.replicates, kPi * kFurnace_cd_m2 / 2, 1e-3);
     }
 }
@@ -226,10 +226,10 @@ TEST(EdgePoints, OfABlackBoxAroundALamp) {
 /// At the foot of a wall that shines, in a black room: half of what is above the floor is the wall. (In the
 /// corner with a black wall the limit depends on where it is approached from.)
 TEST(EdgePoints, AtTheFootOfAWallThatShines) {
-    const Rectangle shining = wall(kRoom, 0, Side::low);
+    const Rectangle shining = wall(kCube, 0, Side::low);
     Scene scene;
-    add_object(scene, kRoom, Black{});
-    add_area_light(scene, shining, Rgb::grey(kLuminance));
+    add_object(scene, kCube, Black{});
+    add_area_light(scene, shining, Rgb::grey(kWallLuminance));
     std::vector<MeasuringPoint> points;
     for (const double y : {0.1, 0.3, 1.0, 1.7}) points.push_back({{0, y, 0}, {0, 0, 1}});
     const std::vector<Sensor> sensors{point_sensor(points)};
@@ -243,7 +243,7 @@ TEST(EdgePoints, AtTheFootOfAWallThatShines) {
             const Vec3 inside = points[i].position + 1e-5 * (Vec3{1, 1, 1} - points[i].position);
             const double exact_lx =
                 exact::illuminance_by_rectangle_lx({{inside.x, inside.y, 0}, {0, 0, 1}}, shining.corner,
-                                                   shining.edge_u, shining.edge_v, kLuminance);
+                                                   shining.edge_u, shining.edge_v, kWallLuminance);
             const statistics::Estimate& e = readings[i].estimate;
             EXPECT_NEAR(e.value, exact_lx, 4 * e.standard_error + 1e-3 * exact_lx) << method << ' ' << i;
             EXPECT_LT(e.standard_error, 0.01 * exact_lx) << method << ' ' << i;
@@ -254,7 +254,7 @@ TEST(EdgePoints, AtTheFootOfAWallThatShines) {
 /// Points that are no nearer to a wall than its rays' offsets need stay where they are.
 TEST(EdgePoints, OnlyPointsNearAWallMove) {
     Scene scene;
-    add_object(scene, kRoom, Black{});
+    add_object(scene, kCube, Black{});
     add_point_light(scene, {1, 1, 1}, Rgb::grey(100));
     const rays::RayCaster caster(scene);
     const double margin_m = rays::kEdgeMargin * caster.offset_m({0, 1, 0}, caster.lift().largest_size_m());

@@ -13,8 +13,7 @@
 namespace stilb::run {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
-constexpr double kReflectance = 0.6, kEmitted = 10, kEverywhere = kEmitted / (1 - kReflectance);
+constexpr double kFurnaceReflectance = 0.6, kEmitted = 10, kEverywhere = kEmitted / (1 - kFurnaceReflectance);
 
 /// A room whose walls shine and reflect; one is open to an environment as bright as what it would be: the
 /// luminance is the same everywhere, so that patches are exact.
@@ -22,9 +21,10 @@ Scene open_furnace() {
     Scene scene;
     const Box room{{0, 0, 0}, {4, 3, 2.8}};
     for (const std::size_t axis : {0, 1, 2}) {
-        add_area_light(scene, wall(room, axis, Side::low), Rgb::grey(kEmitted), diffuse(kReflectance));
+        add_area_light(scene, wall(room, axis, Side::low), Rgb::grey(kEmitted), diffuse(kFurnaceReflectance));
         if (axis != 1)
-            add_area_light(scene, wall(room, axis, Side::high), Rgb::grey(kEmitted), diffuse(kReflectance));
+            add_area_light(scene, wall(room, axis, Side::high), Rgb::grey(kEmitted),
+                           diffuse(kFurnaceReflectance));
     }
     add_environment(scene, Rgb::grey(kEverywhere));
     return scene;
@@ -33,7 +33,7 @@ Scene open_furnace() {
 /// A box alone under a sky, of which each face has one illuminance: patches are exact here too.
 Scene box_under_sky() {
     Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {1, 0.8, 0.6}}, diffuse(kReflectance));
+    add_object(scene, Box{{0, 0, 0}, {1, 0.8, 0.6}}, diffuse(kFurnaceReflectance));
     add_sky(scene);
     return scene;
 }
@@ -103,7 +103,7 @@ TEST(Environment, LightsTheFacesOfABox) {
                                         {Vec3{1, 0.4, 0.3}, Vec3{1, 0, 0}},
                                         {Vec3{0.5, 0, 0.3}, Vec3{0, -1, 0}}}) {
         reflected.sights.emplace_back(EmergentRay{place, normal, normal});
-        exact.push_back(kReflectance / std::numbers::pi * exact_lx(normal));
+        exact.push_back(kFurnaceReflectance / std::numbers::pi * exact_lx(normal));
     }
     const Sensor sights{"sights", reflected};
     // 16 x 8 pixels on 512 x 256 are within 1e-4 of the integral.

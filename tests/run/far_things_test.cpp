@@ -20,8 +20,6 @@
 namespace stilb::run {
 namespace {
 
-const Vec3 kUp{0, 0, 1};
-
 /// A room with a table and a panel a centimetre below its ceiling, in one mesh or in several shapes. `wider`:
 /// a hall of so many times the length and width.
 Scene furnished_room(const Vec3& at, double wider = 1) {

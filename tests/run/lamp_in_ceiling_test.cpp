@@ -21,8 +21,8 @@ Scene room_with_panel(double below_m) {
     return scene;
 }
 
-std::vector<statistics::Estimate> readings_of(const Scene& scene, const Sensor& sensor,
-                                              std::string_view method) {
+std::vector<statistics::Estimate> readings_below_ceiling(const Scene& scene, const Sensor& sensor,
+                                                         std::string_view method) {
     RunOptions options;
     options.method = method;
     options.paths = 256;
@@ -36,7 +36,8 @@ std::vector<statistics::Estimate> readings_of(const Scene& scene, const Sensor& 
 TEST(LampInCeiling, IsAsBrightAsItShouldBe) {
     const Sensor sight{"sight", Luminance{{LineOfSight{{1, 1, 1}, normalized({0.9, 0.4, 1.8})}}}};
     for (const std::string_view method : estimators::luminance_methods()) {
-        EXPECT_NEAR(readings_of(room_with_panel(0), sight, method)[0].value, kLuminance_cd_m2, 1e-3)
+        EXPECT_NEAR(readings_below_ceiling(room_with_panel(0), sight, method)[0].value, kLuminance_cd_m2,
+                    1e-3)
             << method;
     }
 }
@@ -44,8 +45,8 @@ TEST(LampInCeiling, IsAsBrightAsItShouldBe) {
 TEST(LampInCeiling, LightsTheRoomAsOneBelowIt) {
     const Sensor sensor = point_sensor({{{2, 1, 0.75}, {0, 0, 1}}, {{0.2, 0.2, 0}, {0, 0, 1}}});
     for (const auto& entry : estimators::estimator_list()) {
-        const auto flush = readings_of(room_with_panel(0), sensor, entry.name),
-                   below = readings_of(room_with_panel(1e-4), sensor, entry.name);
+        const auto flush = readings_below_ceiling(room_with_panel(0), sensor, entry.name),
+                   below = readings_below_ceiling(room_with_panel(1e-4), sensor, entry.name);
         for (std::size_t i = 0; i < 2; ++i) {
             const double error = std::hypot(flush[i].standard_error, below[i].standard_error);
             EXPECT_NEAR(flush[i].value, below[i].value, 4 * error + 0.003 * below[i].value) << entry.name;

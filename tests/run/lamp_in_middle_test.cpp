@@ -9,7 +9,7 @@
 namespace stilb::run {
 namespace {
 
-constexpr double kWidth_m = 0.5, kDepth_m = 0.3, kLuminance_cd_m2 = 20'000;
+constexpr double kWidth_m = 0.5, kDepth_m = 0.3, kLampLuminance_cd_m2 = 20'000;
 
 /// Facing the lamp, below it, at angles that are no round numbers.
 std::vector<MeasuringPoint> points_around(double distance_m, const Frame& lamp) {
@@ -33,7 +33,7 @@ void expect_light_of_lamp(const Scene& scene, const std::vector<MeasuringPoint>&
         const RunResult result = measure(scene, {&sensor, 1}, options);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double distance_m = length(points[i].position);
-            const double as_point_lx = kLuminance_cd_m2 * kWidth_m * kDepth_m *
+            const double as_point_lx = kLampLuminance_cd_m2 * kWidth_m * kDepth_m *
                                        lamp.to_local(points[i].normal).z / (distance_m * distance_m);
             const statistics::Estimate& found = result.sensors[0].readings[i].estimate;
             EXPECT_NEAR(found.value, as_point_lx, 0.0003 * as_point_lx + 5 * found.standard_error)
@@ -47,7 +47,7 @@ void add_lamp(Scene& scene, const Frame& lamp) {
     add_area_light(
         scene,
         Rectangle{lamp.to_world({-kWidth_m / 2, -kDepth_m / 2, 0}), kDepth_m * lamp.v, kWidth_m * lamp.u},
-        Rgb::grey(kLuminance_cd_m2));
+        Rgb::grey(kLampLuminance_cd_m2));
 }
 
 TEST(LampInMiddle, LightsPointsFarAway) {

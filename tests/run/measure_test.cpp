@@ -13,7 +13,7 @@ namespace stilb::run {
 namespace {
 
 /// A room of 4 m with a mirror on half of the wall x = 4, and a window, the wall y = 4 being left out.
-Scene mirror_room() {
+Scene room_with_mirror() {
     Scene scene;
     for (const auto& [corner, u, v] : {std::array<Vec3, 3>{Vec3{0, 0, 0}, Vec3{4, 0, 0}, Vec3{0, 4, 0}},
                                        std::array<Vec3, 3>{Vec3{0, 0, 3}, Vec3{0, 4, 0}, Vec3{4, 0, 0}},
@@ -33,7 +33,7 @@ Sensor sights() {
                        LineOfSight{{2, 2, 1}, {0, 1, 0}}}}};
 }
 
-RunOptions options_for(std::string_view method) {
+RunOptions measure_options(std::string_view method) {
     RunOptions options;
     options.method = method;
     options.paths = 4096;
@@ -49,7 +49,7 @@ void expect_near(const std::optional<Vec3>& found, const Vec3& expected) {
 TEST(Measure, TellsWhereLinesOfSightEnd) {
     const Sensor sensor = sights();
     for (const char* method : {"auto", "double-local", "path", "ray-bundle"}) {
-        const RunResult result = measure(mirror_room(), {&sensor, 1}, options_for(method));
+        const RunResult result = measure(room_with_mirror(), {&sensor, 1}, measure_options(method));
         const auto& ends = result.sensors[0].sub_points;
         ASSERT_EQ(ends.size(), 3U) << method;
         expect_near(ends[0], {0, 2, 1});
@@ -61,20 +61,20 @@ TEST(Measure, TellsWhereLinesOfSightEnd) {
 TEST(Measure, LinesOfSightEndAtMirrorsThatTheLimitLeavesOut) {
     const Sensor sensor = sights();
     for (const char* method : {"auto", "double-local", "path"}) {
-        RunOptions options = options_for(method);
+        RunOptions options = measure_options(method);
         options.bounces = 0;
-        const RunResult result = measure(mirror_room(), {&sensor, 1}, options);
+        const RunResult result = measure(room_with_mirror(), {&sensor, 1}, options);
         expect_near(result.sensors[0].sub_points[1], {4, 1.5, 1});
     }
 }
 
 TEST(Measure, ResultsOwnTheirSensorsAndTheMeansOfTheirReplicates) {
-    RunOptions options = options_for("auto");
+    RunOptions options = measure_options("auto");
     RunResult result;
     {
         const std::vector<Sensor> sensors{{"plane", Grid{{0.5, 0.5, 0.8}, {3, 0, 0}, {0, 3, 0}, {3, 2}}},
                                           sights()};
-        result = measure(mirror_room(), sensors, options);
+        result = measure(room_with_mirror(), sensors, options);
     }
     ASSERT_EQ(result.sensors.size(), 2U);
     EXPECT_EQ(result.sensors[0].sensor.name, "plane");
@@ -116,7 +116,7 @@ bool has_warning(const RunResult& result, std::string_view part) {
 
 TEST(Measure, WarnsWhereItFoundNoLight) {
     const Sensor sensor = at_point({4.5, 0.5, 0}, {0, 0, 1});
-    const RunResult result = measure(keyhole(), {&sensor, 1}, options_for("auto"));
+    const RunResult result = measure(keyhole(), {&sensor, 1}, measure_options("auto"));
     EXPECT_EQ(result.sensors[0].readings[0].estimate.value, 0);
     EXPECT_TRUE(has_warning(result, "4096 samples found no light"));
 }
@@ -125,20 +125,20 @@ TEST(Measure, WarnsOfSeveralDarkSensorsOnce) {
     const Sensor dark = at_point({4.5, 0.5, 0}, {0, 0, 1});
     Sensor pair{"pair", IlluminancePoints{{{{4.5, 0.6, 0}, {0, 0, 1}}, {{1, 2, 0}, {0, 0, 1}}}}};
     const std::vector<Sensor> sensors{dark, pair};
-    const RunResult result = measure(keyhole(), sensors, options_for("auto"));
+    const RunResult result = measure(keyhole(), sensors, measure_options("auto"));
     EXPECT_TRUE(has_warning(
         result,
         "sensors \"point\", \"pair\" (1 of 2 readings): 4096 samples found no light. If light gets there"));
 }
 
 TEST(Measure, WarnsWhereFewPathsCarryTheLight) {
-    RunOptions options = options_for("path");
+    RunOptions options = measure_options("path");
     options.paths = 1 << 17;
     const Sensor sensor = at_point({4, 2, 0}, {0, 0, 1});
     EXPECT_TRUE(has_warning(measure(keyhole(), {&sensor, 1}, options), "a few rare light paths"));
     const Sensor lit = at_point({1, 2, 0}, {0, 0, 1});
     for (const char* method : {"auto", "path", "local"}) {
-        EXPECT_TRUE(measure(keyhole(), {&lit, 1}, options_for(method)).warnings.empty()) << method;
+        EXPECT_TRUE(measure(keyhole(), {&lit, 1}, measure_options(method)).warnings.empty()) << method;
     }
 }
 
@@ -150,7 +150,7 @@ TEST(Measure, WaitsForSharpLight) {
                RoughConductor(RoughConductor::Parameters{Rgb::grey(0.8), 0.05}));
     add_area_light(scene, Sphere{{2, 2, 1.01}, 0.005}, Rgb::grey(1e6));
     const Sensor sensor = at_point({0, 2, 1.2}, {1, 0, 0});
-    RunOptions options = options_for("auto");
+    RunOptions options = measure_options("auto");
     EXPECT_TRUE(
         has_warning(measure(scene, {&sensor, 1}, options), "reflects or refracts small lamps sharply"));
     options.paths.reset();
@@ -171,7 +171,7 @@ TEST(Measure, IntervalsHoldForLightThatAShortRunMayMiss) {
     const Sensor sensor{"points",
                         IlluminancePoints{{{{2, 1.5, 0.8}, {0, 0, 1}}, {{3, 2.2, 0.8}, {0, 0, 1}}}}};
     const auto readings_of = [&](const char* method, std::uint64_t paths, std::uint64_t seed) {
-        RunOptions options = options_for(method);
+        RunOptions options = measure_options(method);
         options.paths = paths;
         options.seed = seed;
         return measure(scene, {&sensor, 1}, options).sensors[0].readings;

@@ -20,12 +20,12 @@ using estimators::Pass;
 using estimators::PixelBlock;
 
 /// A sample at a pixel, from a number in [0, 1).
-using Luminance = std::function<double(const Pass&, int x, double u)>;
+using LuminanceOfPass = std::function<double(const Pass&, int x, double u)>;
 
 /// Pixels of the mean 100, in each sample with a deviation of their own. Keeps account of the samples.
 class MadeUpPicture final : public estimators::Estimator {
   public:
-    explicit MadeUpPicture(Luminance luminance) : luminance_(std::move(luminance)) {}
+    explicit MadeUpPicture(LuminanceOfPass luminance) : luminance_(std::move(luminance)) {}
 
     std::string_view technique() const override { return "made up"; }
     void run_batch(const estimators::Batch&, estimators::ReadingSums&) const override {}
@@ -66,7 +66,7 @@ class MadeUpPicture final : public estimators::Estimator {
         Pass pass_;
     };
 
-    Luminance luminance_;
+    LuminanceOfPass luminance_;
     mutable std::mutex mutex_;
     mutable std::map<std::tuple<std::uint64_t, int, int>, std::vector<std::uint64_t>> numbers_;
 };
@@ -80,7 +80,7 @@ double two_halves(const Pass&, int x, double u) { return 100 + deviation(x) * st
 
 /// A picture after so many passes of each replicate.
 struct Finished {
-    Finished(Luminance luminance, std::uint64_t rounds, std::uint64_t seed = 1,
+    Finished(LuminanceOfPass luminance, std::uint64_t rounds, std::uint64_t seed = 1,
              const std::array<int, 2>& resolution = kResolution, const PicturePlan& plan = kPlan)
         : picture(std::move(luminance)),
           blind(static_cast<std::size_t>(resolution[0]) * static_cast<std::size_t>(resolution[1])),

@@ -14,8 +14,6 @@
 namespace stilb::run {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
-
 /// A cube of 4 m with 10 klm at its centre.
 Scene lamp_in_cube(double reflectance) {
     Scene scene;
@@ -31,7 +29,7 @@ double direct_lx(const Vec3& place) {
 }
 
 /// Coloured, with a large light, a small one and a point, a cabinet, a table and a black ball.
-Scene furnished_room() {
+Scene furnished_baseline_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, Diffuse{{{0.7, 0.6, 0.4}}});
     add_object(scene, Box{{0.4, 2.1, 0}, {1.4, 2.8, 1.2}}, Diffuse{{{0.2, 0.4, 0.7}}});
@@ -43,7 +41,7 @@ Scene furnished_room() {
     return scene;
 }
 
-RunOptions options_for(const std::string& method, double patch_m, std::uint64_t particles = 1 << 20) {
+RunOptions baseline_options(const std::string& method, double patch_m, std::uint64_t particles = 1 << 20) {
     RunOptions options;
     options.method = method;
     options.patches.patch_m = patch_m;
@@ -62,7 +60,7 @@ TEST_P(PatchBaseline, LightsACubeAsComputed) {
     const Vec3 middle{2, 2, 0}, corner{0.5, 0.5, 0};
     const std::vector<Sensor> sensors{point_sensor({{middle, kUp}, {corner, kUp}}),
                                       Sensor{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 8}, kUp}}};
-    const RunResult result = measure(lamp_in_cube(0.8), sensors, options_for(GetParam(), 0.5));
+    const RunResult result = measure(lamp_in_cube(0.8), sensors, baseline_options(GetParam(), 0.5));
     EXPECT_NEAR(value_of(result, 0) - direct_lx(middle), 430.95, 0.01 * 430.95);
     EXPECT_NEAR(value_of(result, 1) - direct_lx(corner), 403.10, 0.01 * 403.10);
     double direct = 0;
@@ -83,12 +81,12 @@ TEST_P(PatchBaseline, FillsAFurnace) {
         lines.sights.emplace_back(LineOfSight{{2, 1.5, 1}, normalized(way)});
     }
     const Sensor sights{"sights", lines};
-    const RunResult result = measure(scene, {&sights, 1}, options_for(GetParam(), 0.4));
+    const RunResult result = measure(scene, {&sights, 1}, baseline_options(GetParam(), 0.4));
     for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(value_of(result, j), 10 / (1 - kReflectance), 0.3) << j;
 }
 
 TEST_P(PatchBaseline, ApproachesPathTracingAsPatchesShrink) {
-    const Scene scene = furnished_room();
+    const Scene scene = furnished_baseline_room();
     Luminance lines;
     for (int i = 0; i < 64; ++i) {  // all around, by the golden section
         const double z = (i + 0.5) / 32 - 1, turn = 2 * std::numbers::pi * i / std::numbers::phi;
@@ -103,7 +101,7 @@ TEST_P(PatchBaseline, ApproachesPathTracingAsPatchesShrink) {
     const RunResult exact = measure(scene, sensors, path);
     double largest = 1;
     for (const double patch_m : {1., 0.3}) {
-        const RunResult result = measure(scene, sensors, options_for(GetParam(), patch_m));
+        const RunResult result = measure(scene, sensors, baseline_options(GetParam(), patch_m));
         double error = 0;
         for (std::size_t s = 0; s < 2; ++s) {
             const double expected = exact.sensors[s].summary.mean.value;
@@ -117,10 +115,10 @@ TEST_P(PatchBaseline, ApproachesPathTracingAsPatchesShrink) {
 }
 
 TEST_P(PatchBaseline, PicturesShowWhatMetersMeasure) {
-    const Scene scene = furnished_room();
+    const Scene scene = furnished_baseline_room();
     const Sensor camera{"camera",
                         Camera{{0.3, 0.3, 1.5}, {2.3, 1.3, 0.7}, kUp, 70, {24, 16}, Projection::perspective}};
-    RunOptions options = options_for(GetParam(), 0.3);
+    RunOptions options = baseline_options(GetParam(), 0.3);
     options.paths = 64;
     const RenderResult baseline = render(scene, camera, options);
     options.method = "path";
@@ -131,7 +129,8 @@ TEST_P(PatchBaseline, PicturesShowWhatMetersMeasure) {
 
 TEST_P(PatchBaseline, ReportsWhatBecameOfLights) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
-    const RunResult result = measure(furnished_room(), {&floor, 1}, options_for(GetParam(), 1, 1 << 17));
+    const RunResult result =
+        measure(furnished_baseline_room(), {&floor, 1}, baseline_options(GetParam(), 1, 1 << 17));
     ASSERT_TRUE(result.patches);
     EXPECT_GT(result.patches->count, 100U);
     EXPECT_EQ(result.patches->size_m, 1);
@@ -144,9 +143,9 @@ TEST_P(PatchBaseline, ReportsWhatBecameOfLights) {
 }
 
 TEST_P(PatchBaseline, ThreadsChangeNothing) {
-    const Scene scene = furnished_room();
+    const Scene scene = furnished_baseline_room();
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}, {{3, 1.3, 0.8}, kUp}});
-    RunOptions options = options_for(GetParam(), 1.5, 1 << 17);
+    RunOptions options = baseline_options(GetParam(), 1.5, 1 << 17);
     const RunResult once = measure(scene, {&floor, 1}, options);
     for (const int threads : {1, 3}) {
         options.threads = threads;
@@ -164,7 +163,7 @@ TEST_P(PatchBaseline, RefusesWhatIsNotDiffuse) {
         scene.objects.back().name = "vase";
         scene.materials.back().name = "glaze";
         try {
-            measure(scene, {&floor, 1}, options_for(GetParam(), 1));
+            measure(scene, {&floor, 1}, baseline_options(GetParam(), 1));
             FAIL();
         } catch (const InputError& error) {
             const std::string text = error.what();
@@ -180,7 +179,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, PatchBaseline, testing::Values("radiosity", "p
 
 TEST(Radiosity, SamplesTheWayFromPatchesToPoints) {
     const std::vector<Sensor> sensors{Sensor{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {2, 1}, kUp}}};
-    RunOptions options = options_for("radiosity", 1);
+    RunOptions options = baseline_options("radiosity", 1);
     options.paths.reset();
     options.error = 0.01;
     const RunResult result = measure(lamp_in_cube(0.5), sensors, options);
@@ -196,7 +195,7 @@ TEST(Radiosity, RefusesToLoseLight) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
     for (const estimators::FirstShotVariant variant :
          {estimators::FirstShotVariant::none, estimators::FirstShotVariant::on_the_fly}) {
-        RunOptions options = options_for("radiosity", 1);
+        RunOptions options = baseline_options("radiosity", 1);
         options.patches.first_shot.variant = variant;
         EXPECT_THROW(measure(lamp_in_cube(0.5), {&floor, 1}, options), InputError) << name_of(variant);
     }
@@ -205,10 +204,11 @@ TEST(Radiosity, RefusesToLoseLight) {
 /// The rear half of a cube carries nothing.
 TEST(Radiosity, CubesSeeWhatHemicubesSee) {
     const Sensor floor = point_sensor({{{1, 1.3, 0}, kUp}});
-    RunOptions options = options_for("radiosity", 1);
-    const double expected = value_of(measure(furnished_room(), {&floor, 1}, options), 0);
+    RunOptions options = baseline_options("radiosity", 1);
+    const double expected = value_of(measure(furnished_baseline_room(), {&floor, 1}, options), 0);
     options.patches.first_shot.shooting.window = patches::BufferShape::cube;
-    EXPECT_NEAR(value_of(measure(furnished_room(), {&floor, 1}, options), 0), expected, 1e-3 * expected);
+    EXPECT_NEAR(value_of(measure(furnished_baseline_room(), {&floor, 1}, options), 0), expected,
+                1e-3 * expected);
 }
 
 }  // namespace

@@ -12,7 +12,6 @@
 namespace stilb::run {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
 constexpr double kHalfSize_m = 15;
 const exact::ParallelPlanes kPlanes{0.5, 0.7, 0.6, 0.4, 100};
 
@@ -28,7 +27,7 @@ Scene sobolevs_planes() {
     return scene;
 }
 
-RunOptions options_for(const std::string& method, double patch_m) {
+RunOptions coarse_options(const std::string& method, double patch_m) {
     RunOptions options;
     options.method = method;
     options.patches.patch_m = patch_m;
@@ -45,7 +44,8 @@ TEST_P(PatchError, IsInTheIntervalsOfReadings) {
     for (const double radius : {0.3, 1., 2.}) points.push_back({{radius, 0, 0}, kUp});
     const Sensor sensor = point_sensor(points);
     for (const double patch_m : {2., 8.}) {
-        const RunResult result = measure(sobolevs_planes(), {&sensor, 1}, options_for(GetParam(), patch_m));
+        const RunResult result =
+            measure(sobolevs_planes(), {&sensor, 1}, coarse_options(GetParam(), patch_m));
         const SensorResult& readings = result.sensors[0];
         double largest = 0;
         for (std::size_t j = 0; j < points.size(); ++j) {
@@ -68,7 +68,7 @@ TEST_P(PatchError, IsInTheIntervalsOfReadings) {
 
 TEST_P(PatchError, EndsARunThatCannotReachItsError) {
     const Sensor sensor = point_sensor({{{1, 0, 0}, kUp}});
-    RunOptions options = options_for(GetParam(), 8);
+    RunOptions options = coarse_options(GetParam(), 8);
     options.paths.reset();
     options.error = 0.01;
     const RunResult result = measure(sobolevs_planes(), {&sensor, 1}, options);
@@ -90,7 +90,7 @@ TEST(PatchErrorOfNothing, IsNothingInTheDark) {
     add_object(scene, Rectangle{{0, 0, 1}, {2, 0, 0}, {0, 4, 0}}, Black{});
     add_point_light(scene, {1, 2, 2}, Rgb::grey(100));
     const Sensor grid{"floor", Grid{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {8, 2}, kUp}};
-    const RunResult result = measure(scene, {&grid, 1}, options_for("ray-bundle", 0.5));
+    const RunResult result = measure(scene, {&grid, 1}, coarse_options("ray-bundle", 0.5));
     const SensorResult& floor = result.sensors[0];
     EXPECT_EQ(floor.summary.minimum.value, 0);
     EXPECT_EQ(floor.summary.minimum.upper, 0);
@@ -105,7 +105,7 @@ TEST(PatchErrorOfNothing, IsSmall) {
     Scene scene;
     add_area_light(scene, inward({{0, 0, 0}, {4, 3, 2.8}}), Rgb::grey(50), diffuse(0.6));
     const Sensor grid{"floor", Grid{{0.5, 0.5, 0}, {3, 0, 0}, {0, 2, 0}, {8, 8}, kUp}};
-    const RunResult result = measure(scene, {&grid, 1}, options_for("ray-bundle", 0.5));
+    const RunResult result = measure(scene, {&grid, 1}, coarse_options("ray-bundle", 0.5));
     EXPECT_LT(*result.sensors[0].patch_error, 0.01);
 }
 

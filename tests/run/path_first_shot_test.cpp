@@ -12,8 +12,6 @@
 namespace stilb::run {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
-
 /// Of flat surfaces, diffuse and glossy.
 Scene phong_room() {
     Scene scene;

@@ -12,7 +12,7 @@ namespace stilb::run {
 namespace {
 
 /// A room of 4 m x 4 m x 3 m with a lamp in the ceiling and a table.
-Scene room() {
+Scene rated_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 4, 3}}, diffuse(0.5));
     add_object(scene, Box{{1, 1, 0}, {2, 2, 0.7}}, diffuse(0.3));
@@ -24,7 +24,7 @@ Sensor desk() { return {"desk", Grid{{0.5, 2.5, 0.8}, {3, 0, 0}, {0, 1, 0}, {4, 
 Sensor eye() { return {"eye", Cylindrical{{{2.5, 2.5, 1.2}}}}; }
 Sensor derived(const std::string& formula) { return {"derived", Derived{Expression(formula)}}; }
 
-RunOptions options_for(std::string_view method, std::uint64_t seed = 1) {
+RunOptions rating_options(std::string_view method, std::uint64_t seed = 1) {
     RunOptions options;
     options.method = method;
     options.paths = 2048;
@@ -35,20 +35,20 @@ RunOptions options_for(std::string_view method, std::uint64_t seed = 1) {
 
 SensorResult measure_derived(const std::string& formula, const RunOptions& options) {
     const std::vector<Sensor> sensors{derived(formula), desk(), eye()};
-    return measure(room(), sensors, options).sensors.at(0);
+    return measure(rated_room(), sensors, options).sensors.at(0);
 }
 
 const statistics::Estimate& value_of(const SensorResult& result) { return result.readings.at(0).estimate; }
 
 TEST(DerivedValues, ErrorsContainCorrelations) {
     for (const char* method : {"auto", "path", "radiosity", "particles"}) {
-        const RunOptions options = options_for(method);
+        const RunOptions options = rating_options(method);
         const SensorResult none = measure_derived("desk.mean - desk.mean", options);
         EXPECT_EQ(value_of(none).value, 0) << method;
         EXPECT_EQ(value_of(none).standard_error, 0) << method;
         const SensorResult sum = measure_derived("desk.mean + eye", options);
         const std::vector<Sensor> sensors{desk(), eye()};
-        const RunResult parts = measure(room(), sensors, options);
+        const RunResult parts = measure(rated_room(), sensors, options);
         const auto& a = parts.sensors[0].summary.mean;
         const auto& b = parts.sensors[1].readings[0].estimate;
         EXPECT_NEAR(value_of(sum).value, a.value + b.value, 1e-9) << method;
@@ -63,10 +63,10 @@ TEST(DerivedValues, ErrorsContainCorrelations) {
 }
 
 TEST(DerivedValues, AgreeWithTheSummary) {
-    const RunOptions options = options_for("path");
+    const RunOptions options = rating_options("path");
     const std::vector<Sensor> sensors{derived("desk.minimum / desk.mean"),
                                       derived("desk.minimum / desk.maximum"), desk()};
-    const RunResult result = measure(room(), sensors, options);
+    const RunResult result = measure(rated_room(), sensors, options);
     const statistics::GridSummary& summary = result.sensors[2].summary;
     EXPECT_NEAR(value_of(result.sensors[0]).value, summary.uniformity.value, 1e-12);
     EXPECT_NEAR(value_of(result.sensors[0]).standard_error, summary.uniformity.standard_error, 1e-12);
@@ -76,7 +76,7 @@ TEST(DerivedValues, AgreeWithTheSummary) {
 
 TEST(DerivedValues, ContainTheErrorOfPatches) {
     const std::vector<Sensor> sensors{derived("desk.mean * 2"), desk()};
-    const RunResult result = measure(room(), sensors, options_for("particles"));
+    const RunResult result = measure(rated_room(), sensors, rating_options("particles"));
     const statistics::Estimate& twice = value_of(result.sensors[0]);
     const statistics::Estimate& mean = result.sensors[1].summary.mean;
     EXPECT_NEAR(twice.upper, 2 * mean.upper, 1e-9 * mean.upper);
@@ -85,16 +85,16 @@ TEST(DerivedValues, ContainTheErrorOfPatches) {
 }
 
 TEST(DerivedValues, AreUndefinedInTheDark) {
-    Scene dark = room();
+    Scene dark = rated_room();
     dark.lights.clear();
     const std::vector<Sensor> sensors{derived("desk.mean / eye"), desk(), eye()};
-    EXPECT_TRUE(std::isnan(value_of(measure(dark, sensors, options_for("path")).sensors[0]).value));
+    EXPECT_TRUE(std::isnan(value_of(measure(dark, sensors, rating_options("path")).sensors[0]).value));
 }
 
 TEST(DerivedValues, NeedTheirSensors) {
     const std::vector<Sensor> sensors{derived("desk.mean / eye"), desk()};
     try {
-        measure(room(), sensors, options_for("path"));
+        measure(rated_room(), sensors, rating_options("path"));
         FAIL();
     } catch (const InputError& error) {
         EXPECT_STREQ(error.what(),
@@ -103,13 +103,13 @@ TEST(DerivedValues, NeedTheirSensors) {
 }
 
 TEST(DerivedValues, ChangeNothingElse) {
-    RunOptions options = options_for("auto");
+    RunOptions options = rating_options("auto");
     options.paths.reset();
     options.error = 0.02;
     const Sensor grid{"desk", Grid{{0.5, 2.5, 0.8}, {3, 0, 0}, {0, 1, 0}, {10, 8}}};
-    const RunResult alone = measure(room(), {&grid, 1}, options);
+    const RunResult alone = measure(rated_room(), {&grid, 1}, options);
     const std::vector<Sensor> sensors{derived("desk.maximum / desk.mean"), grid};
-    const RunResult both = measure(room(), sensors, options);
+    const RunResult both = measure(rated_room(), sensors, options);
     EXPECT_EQ(both.replicates, 8) << "as where all sensors are large grids";
     EXPECT_EQ(both.samples, alone.samples);
     EXPECT_EQ(both.sensors[1].summary.uniformity, alone.sensors[0].summary.uniformity);
@@ -118,9 +118,9 @@ TEST(DerivedValues, ChangeNothingElse) {
 /// Modelling index, and the minimum of the task over the mean of another place, with 200 seeds.
 TEST(DerivedValues, IntervalsHold) {
     const std::vector<Sensor> sensors{derived("eye / desk[5]"), derived("desk.minimum / eye"), desk(), eye()};
-    RunOptions options = options_for("path");
+    RunOptions options = rating_options("path");
     options.paths = 1 << 17;
-    const RunResult truth = measure(room(), sensors, options);
+    const RunResult truth = measure(rated_room(), sensors, options);
     options.paths = 64;
     constexpr std::uint64_t seeds = 200;
     for (std::size_t s = 0; s < 2; ++s) {
@@ -128,7 +128,8 @@ TEST(DerivedValues, IntervalsHold) {
         std::uint64_t held = 0;
         for (std::uint64_t seed = 10; seed < 10 + seeds; ++seed) {
             options.seed = seed;
-            const statistics::Estimate estimate = value_of(measure(room(), sensors, options).sensors[s]);
+            const statistics::Estimate estimate =
+                value_of(measure(rated_room(), sensors, options).sensors[s]);
             held += estimate.lower <= exact && exact <= estimate.upper;
         }
         // 95 %, with three standard errors of 1.5 %; minima may be conservative.
@@ -183,12 +184,12 @@ TEST(Requirements, EndARunOnceTheyAreDecided) {
     options.method = "path";
     options.time_s = kMoreThanEnough_s;
     const Sensor easy = required(desk(), "mean", 50);
-    const RunResult soon = measure(room(), {&easy, 1}, options);
+    const RunResult soon = measure(rated_room(), {&easy, 1}, options);
     // About seven times as many samples are needed to be sure of half an interval's width.
     const statistics::Estimate& mean = soon.sensors[0].summary.mean;
     const Sensor hard = required(desk(), "mean", mean.value - (mean.upper - mean.value) / 2);
     options.seed = 2;
-    const RunResult late = measure(room(), {&hard, 1}, options);
+    const RunResult late = measure(rated_room(), {&hard, 1}, options);
     for (const RunResult* result : {&soon, &late}) {
         EXPECT_EQ(result->stop_reason, StopReason::requirements_decided);
         EXPECT_TRUE(result->converged);
@@ -197,7 +198,7 @@ TEST(Requirements, EndARunOnceTheyAreDecided) {
     }
     EXPECT_LT(soon.samples, late.samples);
     const Sensor missed = required(desk(), "uniformity", 0.99);
-    EXPECT_EQ(verdict_of(measure(room(), {&missed, 1}, options)), Verdict::fail);
+    EXPECT_EQ(verdict_of(measure(rated_room(), {&missed, 1}, options)), Verdict::fail);
 }
 
 TEST(Requirements, DoNotEndARunThatHasAnErrorToReach) {
@@ -205,7 +206,7 @@ TEST(Requirements, DoNotEndARunThatHasAnErrorToReach) {
     RunOptions options;
     options.method = "path";
     options.error = 0.01;
-    const RunResult result = measure(room(), {&easy, 1}, options);
+    const RunResult result = measure(rated_room(), {&easy, 1}, options);
     EXPECT_EQ(result.stop_reason, StopReason::target_reached);
     EXPECT_TRUE(result.converged);
     EXPECT_LE(result.attained_error, 0.01);
@@ -218,14 +219,14 @@ TEST(Requirements, OfDerivedValuesAreDecidedToo) {
     RunOptions options;
     options.method = "path";
     options.time_s = kMoreThanEnough_s;
-    const RunResult result = measure(room(), sensors, options);
+    const RunResult result = measure(rated_room(), sensors, options);
     EXPECT_EQ(result.stop_reason, StopReason::requirements_decided);
     EXPECT_EQ(result.sensors[0].requirements.at(0).verdict, Verdict::pass);
 }
 
 TEST(Requirements, DoNotChangeARunOfAGivenNumberOfPaths) {
     const Sensor easy = required(desk(), "mean", 1);
-    const RunResult result = measure(room(), {&easy, 1}, options_for("path"));
+    const RunResult result = measure(rated_room(), {&easy, 1}, rating_options("path"));
     EXPECT_EQ(result.stop_reason, StopReason::paths_done);
     EXPECT_EQ(result.samples, 2048U);
     EXPECT_EQ(verdict_of(result), Verdict::pass);
@@ -233,13 +234,13 @@ TEST(Requirements, DoNotChangeARunOfAGivenNumberOfPaths) {
 
 TEST(Requirements, StayUndecidedWhereTimeDoesNotSuffice) {
     const Sensor plain = desk();
-    RunOptions options = options_for("path");
+    RunOptions options = rating_options("path");
     options.paths = 1 << 17;
-    const double mean = measure(room(), {&plain, 1}, options).sensors[0].summary.mean.value;
+    const double mean = measure(rated_room(), {&plain, 1}, options).sensors[0].summary.mean.value;
     const Sensor close = required(desk(), "mean", mean);
     options.paths.reset();
     options.time_s = 1;  // of the same seed: its paths are nearly those of the limit
-    const RunResult result = measure(room(), {&close, 1}, options);
+    const RunResult result = measure(rated_room(), {&close, 1}, options);
     EXPECT_EQ(result.stop_reason, StopReason::time_over);
     EXPECT_EQ(verdict_of(result), Verdict::undecided);
 }
@@ -270,7 +271,7 @@ TEST(TargetMean, AimsAtMeansAndMinima) {
     options.method = "path";
     options.error = 0.001;
     options.target = Target::mean;
-    const RunResult means = measure(room(), {&sensor, 1}, options);
+    const RunResult means = measure(rated_room(), {&sensor, 1}, options);
     const statistics::GridSummary& summary = means.sensors[0].summary;
     EXPECT_EQ(means.stop_reason, StopReason::target_reached);
     EXPECT_LE(relative_half_width(summary.mean), 0.001);
@@ -291,7 +292,7 @@ Sensor area(const std::vector<Vec3>& corners, double spacing_m) {
 /// Points at 0.35 m over a floor that a table of 1 m x 1 m stands on; the outermost are outside of the room.
 TEST(Areas, LeaveOutPointsInBodiesAndOutsideOfTheRoom) {
     const Sensor wide = area({{-1, -1, 0.35}, {5, -1, 0.35}, {5, 5, 0.35}, {-1, 5, 0.35}}, 0.25);
-    const RunResult result = measure(room(), {&wide, 1}, options_for("path"));
+    const RunResult result = measure(rated_room(), {&wide, 1}, rating_options("path"));
     const SensorResult& measured = result.sensors.at(0);
     const auto& left = std::get<Area>(measured.sensor.kind);
     EXPECT_EQ(left.size(), 16U * 16 - 4 * 4);
@@ -306,20 +307,20 @@ TEST(Areas, LeaveOutPointsInBodiesAndOutsideOfTheRoom) {
 }
 
 TEST(Areas, LeaveOutPointsRightBelowASurface) {
-    Scene scene = room();
+    Scene scene = rated_room();
     add_object(scene, Rectangle{{2.5, 2.5, 0.36}, {1, 0, 0}, {0, 1, 0}}, diffuse(0.3));
     const Sensor floor = area({{2, 2, 0.35}, {4, 2, 0.35}, {4, 4, 0.35}, {2, 4, 0.35}}, 0.25);
-    const RunResult result = measure(scene, {&floor, 1}, options_for("path"));
+    const RunResult result = measure(scene, {&floor, 1}, rating_options("path"));
     EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 16U);
 }
 
 /// Something covers points that lie 1 cm apart if it is less than half of that above them.
 TEST(Areas, OfDensePointsHaveNearerCovers) {
     for (const double gap_m : {0.0049, 0.0051}) {
-        Scene scene = room();
+        Scene scene = rated_room();
         add_object(scene, Rectangle{{2, 2, 0.35 + gap_m}, {0.1, 0, 0}, {0, 0.05, 0}}, diffuse(0.3));
         const Sensor floor = area({{2, 2, 0.35}, {2.1, 2, 0.35}, {2.1, 2.1, 0.35}, {2, 2.1, 0.35}}, 0.01);
-        const RunResult result = measure(scene, {&floor, 1}, options_for("path"));
+        const RunResult result = measure(scene, {&floor, 1}, rating_options("path"));
         EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, gap_m < 0.005 ? 50U : 0U);
     }
 }
@@ -330,18 +331,18 @@ TEST(Areas, OfTinyRoomsKeepTheirPoints) {
     add_object(scene, inward(Box{{0, 0, 0}, {0.04, 0.04, 0.015}}), diffuse(0.5));
     add_point_light(scene, {0.01, 0.02, 0.012}, Rgb::grey(1));
     const Sensor floor = area({{0, 0, 0.001}, {0.04, 0, 0.001}, {0.04, 0.04, 0.001}, {0, 0.04, 0.001}}, 0.01);
-    const RunResult result = measure(scene, {&floor, 1}, options_for("path"));
+    const RunResult result = measure(scene, {&floor, 1}, rating_options("path"));
     EXPECT_EQ(std::get<Area>(result.sensors.at(0).sensor.kind).left_out, 0U);
     EXPECT_EQ(result.sensors.at(0).readings.size(), 16U);
 }
 
 /// One of two rooms has a lamp. The task area in the other room keeps all of its points, and they read 0.
 TEST(Areas, RoomsWithoutLampsAreDark) {
-    Scene scene = room();
+    Scene scene = rated_room();
     add_object(scene, Box{{5, 0, 0}, {9, 4, 3}}, diffuse(0.5));
     const std::vector<Sensor> sensors{desk(),
                                       area({{5, 0, 0.8}, {9, 0, 0.8}, {9, 4, 0.8}, {5, 4, 0.8}}, 0.5)};
-    const RunResult result = measure(scene, sensors, options_for("path"));
+    const RunResult result = measure(scene, sensors, rating_options("path"));
     EXPECT_GT(result.sensors.at(0).summary.minimum.value, 0);
     EXPECT_EQ(std::get<Area>(result.sensors.at(1).sensor.kind).left_out, 0U);
     EXPECT_EQ(result.sensors.at(1).readings.size(), 64U);
@@ -352,17 +353,17 @@ TEST(Areas, RoomsWithoutLampsAreDark) {
 }
 
 TEST(Areas, WhollyBelowASurfaceAreAnError) {
-    Scene scene = room();
+    Scene scene = rated_room();
     add_object(scene, Rectangle{{2, 2, 0.36}, {2, 0, 0}, {0, 2, 0}}, diffuse(0.3));
     const Sensor floor = area({{2, 2, 0.35}, {4, 2, 0.35}, {4, 4, 0.35}, {2, 4, 0.35}}, 0.25);
-    EXPECT_THROW(measure(scene, {&floor, 1}, options_for("path")), InputError);
+    EXPECT_THROW(measure(scene, {&floor, 1}, rating_options("path")), InputError);
 }
 
 TEST(Areas, MeasureAsGridsDo) {
     const Sensor polygon = area({{0.5, 2.5, 0.8}, {3.5, 2.5, 0.8}, {3.5, 3.5, 0.8}, {0.5, 3.5, 0.8}}, 0.5);
     const Sensor grid{"grid", Grid{{0.5, 2.5, 0.8}, {3, 0, 0}, {0, 1, 0}, {6, 2}}};
-    const RunResult by_area = measure(room(), {&polygon, 1}, options_for("path"));
-    const RunResult by_grid = measure(room(), {&grid, 1}, options_for("path"));
+    const RunResult by_area = measure(rated_room(), {&polygon, 1}, rating_options("path"));
+    const RunResult by_grid = measure(rated_room(), {&grid, 1}, rating_options("path"));
     EXPECT_EQ(std::get<Area>(by_area.sensors[0].sensor.kind).left_out, 0U);
     EXPECT_EQ(by_area.sensors[0].summary.mean, by_grid.sensors[0].summary.mean);
     EXPECT_EQ(by_area.sensors[0].summary.diversity, by_grid.sensors[0].summary.diversity);
@@ -370,7 +371,7 @@ TEST(Areas, MeasureAsGridsDo) {
 
 /// Against a derived value of the same formula.
 TEST(PowerDensity, IsOfAllTaskAreasTogether) {
-    Scene scene = room();
+    Scene scene = rated_room();
     scene.lights.at(0).power_w = 90;
     const Sensor left = area({{0.5, 2.5, 0.8}, {1.5, 2.5, 0.8}, {1.5, 3.5, 0.8}, {0.5, 3.5, 0.8}}, 0.5);
     Sensor right = area({{2, 2.5, 0.8}, {3.5, 2.5, 0.8}, {3.5, 3.5, 0.8}, {2, 3.5, 0.8}}, 0.5);
@@ -379,7 +380,7 @@ TEST(PowerDensity, IsOfAllTaskAreasTogether) {
     wall.name = "wall";
     const std::vector<Sensor> sensors{left, right, wall,
                                       derived("9000 / (area.mean * 1 + right.mean * 1.5)")};
-    const RunResult result = measure(scene, sensors, options_for("path"));
+    const RunResult result = measure(scene, sensors, rating_options("path"));
     ASSERT_TRUE(result.power_density);
     EXPECT_EQ(result.power.power_w, 90);
     EXPECT_DOUBLE_EQ(result.power_density->area_m2, 2.5) << "without the wall";
@@ -394,17 +395,17 @@ TEST(PowerDensity, IsOfAllTaskAreasTogether) {
 }
 
 TEST(PowerDensity, IsUnknownWithoutPowerOrArea) {
-    Scene scene = room();
+    Scene scene = rated_room();
     const Sensor task = area({{0.5, 2.5, 0.8}, {1.5, 2.5, 0.8}, {1.5, 3.5, 0.8}, {0.5, 3.5, 0.8}}, 0.5);
-    EXPECT_FALSE(measure(scene, {&task, 1}, options_for("path")).power_density);
+    EXPECT_FALSE(measure(scene, {&task, 1}, rating_options("path")).power_density);
     scene.lights.at(0).power_w = 90;
     const Sensor grid = desk();
-    EXPECT_FALSE(measure(scene, {&grid, 1}, options_for("path")).power_density);
+    EXPECT_FALSE(measure(scene, {&grid, 1}, rating_options("path")).power_density);
 }
 
 TEST(Areas, WhollyInABodyAreDark) {
     const Sensor buried = area({{1.2, 1.2, 0.35}, {1.8, 1.2, 0.35}, {1.8, 1.8, 0.35}}, 0.1);
-    const RunResult result = measure(room(), {&buried, 1}, options_for("path"));
+    const RunResult result = measure(rated_room(), {&buried, 1}, rating_options("path"));
     EXPECT_EQ(result.sensors.at(0).summary.mean.value, 0);
     ASSERT_FALSE(result.warnings.empty());
     EXPECT_NE(result.warnings[0].find("which contains no light"), std::string::npos) << result.warnings[0];

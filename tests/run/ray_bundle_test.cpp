@@ -15,10 +15,8 @@
 namespace stilb::run {
 namespace {
 
-constexpr Vec3 kUp{0, 0, 1};
-
 /// A cube of 4 m with 10 klm at its centre.
-Scene lamp_in_cube(double reflectance) {
+Scene lamp_in_bundle_cube(double reflectance) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 4, 4}}, Diffuse{Rgb::grey(reflectance)});
     add_point_light(scene, {2, 2, 2}, Rgb::grey(10'000 / (4 * std::numbers::pi)));
@@ -56,7 +54,7 @@ statistics::Estimate measured(const Scene& scene, const Sensor& sensor, const Ru
 
 TEST(RayBundle, LightsACubeAsComputed) {
     const Sensor floor = points({{{2, 2, 0}, kUp}, {{0.5, 0.5, 0}, kUp}});
-    const RunResult result = measure(lamp_in_cube(0.8), {&floor, 1}, bundle_options(0.5, 1 << 12));
+    const RunResult result = measure(lamp_in_bundle_cube(0.8), {&floor, 1}, bundle_options(0.5, 1 << 12));
     const auto direct = [](double x, double y) {
         const double squared = 4 + (x - 2) * (x - 2) + (y - 2) * (y - 2);
         return 10'000 / (4 * std::numbers::pi) * 2 / std::pow(squared, 1.5);
@@ -69,7 +67,7 @@ TEST(RayBundle, LightsACubeAsComputed) {
 
 /// One direction and one axis have finite variance at a reflectance of 0.5, too.
 TEST(RayBundle, AllDirectionsHaveTheSameMean) {
-    const Scene scene = lamp_in_cube(0.5);
+    const Scene scene = lamp_in_bundle_cube(0.5);
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
     std::vector<statistics::Estimate> estimates;
     for (const estimators::BundleDirections directions :
@@ -184,14 +182,14 @@ TEST(RayBundle, RefusesToLimitReflections) {
     RunOptions options = bundle_options(1, 16);
     options.bounces = 2;
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
-    EXPECT_THROW(measure(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
+    EXPECT_THROW(measure(lamp_in_bundle_cube(0.5), {&floor, 1}, options), InputError);
 }
 
 TEST(RayBundle, RefusesPointsThatNothingBringsToPatches) {
     RunOptions options = bundle_options(1, 16);
     options.patches.first_shot.variant = estimators::FirstShotVariant::none;
     const Sensor floor = points({{{1, 1.3, 0}, kUp}});
-    EXPECT_THROW(measure(lamp_in_cube(0.5), {&floor, 1}, options), InputError);
+    EXPECT_THROW(measure(lamp_in_bundle_cube(0.5), {&floor, 1}, options), InputError);
 }
 
 }  // namespace

@@ -16,7 +16,7 @@
 namespace stilb::run {
 namespace {
 
-Scene room() {
+Scene bare_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.8}}, diffuse(0.7));
     for (const double x : {1., 2., 3.}) add_point_light(scene, {x, 1.5, 2}, Rgb::grey(100));
@@ -82,7 +82,7 @@ TEST_P(SetUpStage, ReadingsReportItAndCanBeCancelledInIt) {
     const auto& [method, stage] = GetParam();
     Watcher watcher;
     std::atomic<bool> interrupt = false;
-    EXPECT_NO_THROW(measure(room(), {&floor_point(), 1}, options_for(method), &watcher, &interrupt));
+    EXPECT_NO_THROW(measure(bare_room(), {&floor_point(), 1}, options_for(method), &watcher, &interrupt));
     EXPECT_TRUE(watcher.stages.contains(stage)) << method;
 
     Watcher canceller;
@@ -90,7 +90,7 @@ TEST_P(SetUpStage, ReadingsReportItAndCanBeCancelledInIt) {
         if (set_up.stage == stage) interrupt = true;
     };
     const std::string message = cancelled([&] {
-        measure(room(), {&floor_point(), 1}, options_for(method), &canceller, &interrupt);
+        measure(bare_room(), {&floor_point(), 1}, options_for(method), &canceller, &interrupt);
     });
     EXPECT_NE(message.find("interrupted during set-up"), std::string::npos) << message;
     EXPECT_NE(message.find("no result"), std::string::npos) << message;
@@ -109,7 +109,7 @@ TEST(SetUpOfPictures, CanBeCancelled) {
         Watcher watcher;
         watcher.on_set_up = [&](const ProgressSink::SetUp&) { interrupt = true; };
         EXPECT_NE(cancelled([&] {
-                      render(room(), view(), options_for(method), &watcher, &interrupt);
+                      render(bare_room(), view(), options_for(method), &watcher, &interrupt);
                   }).find("interrupted"),
                   std::string::npos)
             << method;
@@ -123,7 +123,7 @@ TEST(SetUpOfSolutions, CanBeCancelled) {
         if (set_up.stage == "first steps") interrupt = true;
     };
     const std::string message =
-        cancelled([&] { solve(room(), options_for("ray-bundle"), 2, &watcher, &interrupt); });
+        cancelled([&] { solve(bare_room(), options_for("ray-bundle"), 2, &watcher, &interrupt); });
     EXPECT_NE(message.find("first steps"), std::string::npos) << message;
 }
 
@@ -160,7 +160,7 @@ TEST(TimeLimit, EndsTheSetUpWithoutAResult) {
         options.time_s = 1;
         Watcher watcher = sleeper(stage, 1);
         const std::string message = cancelled([&] {
-            measure(room(), {&floor_point(), 1}, options, &watcher);
+            measure(bare_room(), {&floor_point(), 1}, options, &watcher);
         });
         EXPECT_NE(message.find("time limit reached during set-up"), std::string::npos) << message;
         EXPECT_NE(message.find("Allow more time"), std::string::npos) << message;
@@ -169,9 +169,9 @@ TEST(TimeLimit, EndsTheSetUpWithoutAResult) {
 
 TEST(TimeLimit, ThatIsLongEnoughChangesNothing) {
     RunOptions options = options_for("radiosity");
-    const RunResult unlimited = measure(room(), {&floor_point(), 1}, options);
+    const RunResult unlimited = measure(bare_room(), {&floor_point(), 1}, options);
     options.time_s = 1e6;
-    const RunResult limited = measure(room(), {&floor_point(), 1}, options);
+    const RunResult limited = measure(bare_room(), {&floor_point(), 1}, options);
     EXPECT_EQ(limited.sensors[0].replicate_means, unlimited.sensors[0].replicate_means);
     EXPECT_EQ(limited.stop_reason, StopReason::paths_done);
     EXPECT_TRUE(limited.converged);

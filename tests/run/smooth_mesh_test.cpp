@@ -13,17 +13,17 @@ namespace stilb {
 namespace {
 
 const Sphere kBall{{0, 0, 0}, 1};
-const Vec3 kEye{6, 0, 0};
+const Vec3 kDistantEye{6, 0, 0};
 
 /// Sights of the ball, but for its rim: outlines of meshes are as coarse as they are.
-std::vector<Measurand> sights() {
+std::vector<Measurand> ball_sights() {
     constexpr int kSteps = 60;
     std::vector<Measurand> all;
     for (int i = 0; i < kSteps; ++i) {
         for (int j = 0; j < kSteps; ++j) {
             const Vec3 to{0, 2.2 * ((i + 0.5) / kSteps - 0.5), 2.2 * ((j + 0.5) / kSteps - 0.5)};
             if (to.y * to.y + to.z * to.z > 0.8 * 0.8) continue;
-            all.emplace_back(LineOfSight{kEye, normalized(to - kEye)});
+            all.emplace_back(LineOfSight{kDistantEye, normalized(to - kDistantEye)});
         }
     }
     return all;
@@ -38,7 +38,7 @@ std::vector<double> luminances(const Shape& ball, const Material& material, cons
     options.method = "double-local";
     options.paths = 32;
     options.bounces = 1;
-    const std::vector<Sensor> sensors{{"sights", Luminance{sights()}}};
+    const std::vector<Sensor> sensors{{"sights", Luminance{ball_sights()}}};
     const RunResult result = run::measure(scene, sensors, options);
     std::vector<double> values;
     for (const Reading& reading : result.sensors[0].readings) values.push_back(reading.estimate.value);

@@ -39,7 +39,7 @@ Scene room(const Material& floor) {
 }
 
 Scene diffuse_room() { return room(Diffuse{Rgb::grey(0.3)}); }
-Scene glossy_room() { return room(Phong{Rgb::grey(0.2), Rgb::grey(0.4), 20}); }
+Scene room_with_glossy_floor() { return room(Phong{Rgb::grey(0.2), Rgb::grey(0.4), 20}); }
 
 Sensor camera() {
     return {"camera",
@@ -125,7 +125,7 @@ void expect_the_light_of_paths(const Scene& scene, std::uint64_t steps, std::uin
 
 TEST(Solve, PicturesAreThoseOfPathTracing) { expect_the_light_of_paths(diffuse_room(), 96, 512); }
 TEST(Solve, PicturesOfGlossySurfacesAreThoseOfPathTracing) {
-    expect_the_light_of_paths(glossy_room(), 96, 512);
+    expect_the_light_of_paths(room_with_glossy_floor(), 96, 512);
 }
 
 /// Up to 16 lamps a picture takes all of them, of more it chooses some (solution_picture.cpp, kMostLights).
@@ -229,7 +229,7 @@ TEST(Solve, WarnsOfLightThatMirrorsBringFromPointsOnly) {
 
 /// Groups are apart: dimmed, the light is that of a scene with dimmed lamps.
 TEST(Solve, DimmedLampsAreThoseOfADimmedScene) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     const std::vector<LightFactor> factors{{scene.lights[0].name, Rgb::grey(0.25)},
                                            {scene.lights[1].name, {{2, 0.5, 0.1}}}};
     const LightGroups groups = scene::light_groups(scene);
@@ -286,7 +286,7 @@ double share_explained(const ReadingsOfPlaces& one, const ReadingsOfPlaces& othe
 
 /// The stated error of a vertex contains what another, long solution finds there.
 TEST(Solve, ErrorsOfVerticesAreHonest) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     const ReadingsOfPlaces expected = readings_of(scene, solve(scene, options_of(1 << 12, 1)).solution);
     double explained = 0;
     for (std::uint64_t seed = 2; seed < 6; ++seed) {
@@ -298,7 +298,7 @@ TEST(Solve, ErrorsOfVerticesAreHonest) {
 
 /// Their noise, without the bias of patches, is what independent solutions differ by.
 TEST(Solve, NoiseOfVerticesIsStatedExactly) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     double explained = 0;
     constexpr int pairs = 8;
     for (std::uint64_t pair = 0; pair < pairs; ++pair) {
@@ -316,7 +316,7 @@ TEST(Solve, NoiseOfVerticesIsStatedExactly) {
 
 /// What is rounded away stays small against the error, and leaves numbers with many zero bits.
 TEST(Solve, RoundingIsSmallAgainstTheError) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     estimators::PatchSolution solution = solve(scene, options_of(64)).solution;
     std::ranges::fill(solution.bias, to_half(0.5F));
     const std::vector<float> errors = relative_errors(solution);
@@ -333,7 +333,7 @@ TEST(Solve, RoundingIsSmallAgainstTheError) {
 
 /// The differences of independent solutions are what their errors say.
 TEST(Solve, ErrorsOfPixelsAreHonest) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     std::vector<RenderResult> pictures;
     for (std::uint64_t seed = 1; seed <= 16; ++seed)
         pictures.push_back(picture_of_solution(scene, 128, seed));
@@ -372,7 +372,7 @@ TEST(Solve, StopsAtTheErrorAskedFor) {
 }
 
 TEST(Solve, ThreadsChangeNothing) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     RunOptions options = options_of(128);
     options.threads = 1;
     const SolveResult one = solve(scene, options);
@@ -401,7 +401,7 @@ TEST(Solve, RefusesWhatItCannotStore) {
 
 /// Parts that do not belong together, as a forged file may have them.
 TEST(Solve, PicturesOfForeignPartsAreRefused) {
-    const Scene scene = glossy_room();
+    const Scene scene = room_with_glossy_floor();
     const estimators::PatchSolution good = solve(scene, options_of(8)).solution;
     const auto refused = [&](auto change) {
         estimators::PatchSolution bad = good;

@@ -189,10 +189,10 @@ Scene room_with_ball_beside_lamp(const Shape& ball) {
     add_point_light(scene, {2, 2, 2.03}, Rgb::grey(100));
     return scene;
 }
-constexpr Sphere kBall{{2, 2, 2}, 0.02};
+constexpr Sphere kTinyBall{{2, 2, 2}, 0.02};
 
 TEST(WeakLamp, IntervalsReachLightThatFewRaysMeet) {
-    const Scene scene = room_with_ball_beside_lamp(kBall);
+    const Scene scene = room_with_ball_beside_lamp(kTinyBall);
     const Sensor sensor{"wall", IlluminancePoints{{{{0, 2, 2.3}, {1, 0, 0}}}}};
     const auto right = measured(scene, sensor, "local", 1 << 22, 1);
     ASSERT_LT(right.standard_error, 2e-3 * right.value);
@@ -210,7 +210,7 @@ TEST(WeakLamp, IntervalsReachLightThatFewRaysMeet) {
 
 TEST(WeakLamp, AllowsForRareLightWhereAMethodNeedsRaysForIt) {
     const MeasuringPoint at{{0, 2, 2.3}, {1, 0, 0}};
-    const Scene ball = room_with_ball_beside_lamp(kBall);
+    const Scene ball = room_with_ball_beside_lamp(kTinyBall);
     const Scene cube = room_with_ball_beside_lamp(Box{{1.98, 1.98, 1.98}, {2.02, 2.02, 2.02}});
     constexpr double of_walls_lx = 0.02 * 100;
     EXPECT_GT(missed_lx(ball, at, "path", 100, of_walls_lx), 0.01);
@@ -225,7 +225,7 @@ TEST(WeakLamp, AllowsForRareLightWhereAMethodNeedsRaysForIt) {
 /// 400,000 rays meets where that comes from.
 TEST(WeakLamp, CountsAsMetWhereASampleWasHalfAsBrightOrSamplesAreMany) {
     const MeasuringPoint at{{0, 2, 2.3}, {1, 0, 0}};
-    const Scene scene = room_with_ball_beside_lamp(kBall);
+    const Scene scene = room_with_ball_beside_lamp(kTinyBall);
     EXPECT_GT(missed_lx(scene, at, "path", 100, 0.95 * 4e5), 0);
     EXPECT_EQ(missed_lx(scene, at, "path", 100, 1.01 * 4e5), 0);
     const double few_lx = missed_lx(scene, at, "path", 100, 2, 1000);

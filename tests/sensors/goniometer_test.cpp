@@ -15,7 +15,7 @@ EmergentRay ray(const Goniometer& sensor, std::size_t j) {
     return std::get<EmergentRay>(sensor.measurand(j));
 }
 
-void expect_near(const Vec3& a, const Vec3& b) {
+void expect_same_place(const Vec3& a, const Vec3& b) {
     EXPECT_LT(length(a - b), 1e-12) << "(" << a.x << ", " << a.y << ", " << a.z << ")";
 }
 
@@ -29,23 +29,24 @@ TEST(Goniometer, APolarPlaneReachesFromSideToSide) {
         EXPECT_EQ(ray(sensor, j).position, (Vec3{1, 2, 3}));
         EXPECT_EQ(ray(sensor, j).normal, (Vec3{0, 0, 1}));
     }
-    expect_near(ray(sensor, 0).direction, {-std::sqrt(0.75), 0, 0.5});
-    expect_near(ray(sensor, 2).direction, {0, 0, 1});
-    expect_near(ray(sensor, 3).direction, {0.5, 0, std::sqrt(0.75)});
+    expect_same_place(ray(sensor, 0).direction, {-std::sqrt(0.75), 0, 0.5});
+    expect_same_place(ray(sensor, 2).direction, {0, 0, 1});
+    expect_same_place(ray(sensor, 3).direction, {0.5, 0, std::sqrt(0.75)});
 }
 
 TEST(Goniometer, PositiveAnglesLieTowardsTheAzimuth) {
-    expect_near(ray(goniometer({0, 0, 1}, 90, 45), 2).direction, {0, std::sqrt(0.5), std::sqrt(0.5)});
-    expect_near(ray(goniometer({0, 0, 1}, 180, 45), 2).direction, {-std::sqrt(0.5), 0, std::sqrt(0.5)});
+    expect_same_place(ray(goniometer({0, 0, 1}, 90, 45), 2).direction, {0, std::sqrt(0.5), std::sqrt(0.5)});
+    expect_same_place(ray(goniometer({0, 0, 1}, 180, 45), 2).direction, {-std::sqrt(0.5), 0, std::sqrt(0.5)});
 }
 
 TEST(Goniometer, OtherNormalsAreReachedByTheShortestTurn) {
     // +z to +x turns about the y axis: azimuth 0, which was +x, becomes -z; azimuth 90 stays.
-    expect_near(ray(goniometer({1, 0, 0}, 0, 45), 2).direction, {std::sqrt(0.5), 0, -std::sqrt(0.5)});
-    expect_near(ray(goniometer({1, 0, 0}, 90, 45), 2).direction, {std::sqrt(0.5), std::sqrt(0.5), 0});
+    expect_same_place(ray(goniometer({1, 0, 0}, 0, 45), 2).direction, {std::sqrt(0.5), 0, -std::sqrt(0.5)});
+    expect_same_place(ray(goniometer({1, 0, 0}, 90, 45), 2).direction, {std::sqrt(0.5), std::sqrt(0.5), 0});
     // +z to -z: half a turn about the x axis.
-    expect_near(ray(goniometer({0, 0, -1}, 0, 45), 2).direction, {std::sqrt(0.5), 0, -std::sqrt(0.5)});
-    expect_near(ray(goniometer({0, 0, -1}, 90, 45), 2).direction, {0, -std::sqrt(0.5), -std::sqrt(0.5)});
+    expect_same_place(ray(goniometer({0, 0, -1}, 0, 45), 2).direction, {std::sqrt(0.5), 0, -std::sqrt(0.5)});
+    expect_same_place(ray(goniometer({0, 0, -1}, 90, 45), 2).direction,
+                      {0, -std::sqrt(0.5), -std::sqrt(0.5)});
 }
 
 TEST(Goniometer, LeavesOutGrazingDirections) {
@@ -72,7 +73,7 @@ TEST(Goniometer, WithoutAPlaneItMeasuresTheHemisphere) {
         EXPECT_EQ(sensor.angles(j).theta_deg, 45);
         EXPECT_EQ(sensor.angles(j).phi_deg, 45 * (static_cast<double>(j) - 1));
     }
-    expect_near(ray(sensor, 3).direction, {0, std::sqrt(0.5), std::sqrt(0.5)});
+    expect_same_place(ray(sensor, 3).direction, {0, std::sqrt(0.5), std::sqrt(0.5)});
 }
 
 TEST(Goniometer, ThetaRisesAndForEachThetaPhi) {

@@ -87,7 +87,7 @@ TEST(Rooms, AreFoundByAPointOnTheirStorey) {
     EXPECT_EQ(room_at(rooms, {1, 1, 2.9}), nullptr) << "between both";
 }
 
-Area settled(Area area) {
+Area settled_area(Area area) {
     EXPECT_FALSE(area.settle(GivenKeys({})));
     return area;
 }
@@ -98,7 +98,7 @@ TEST(Rooms, EndBands) {
     const rays::RayCaster caster(scene);
     const auto rooms = find_rooms(scene, caster);
     const PolygonInSpace desk{{{0.3, 2, 0.75}, {1.9, 2, 0.75}, {1.9, 2.8, 0.75}, {0.3, 2.8, 0.75}}, {}};
-    const Area free = settled({.polygon = desk, .band_m = {0.5, 3.5}});
+    const Area free = settled_area({.polygon = desk, .band_m = {0.5, 3.5}});
     Area band = free;
     const Room* const room = room_of(rooms, band);
     ASSERT_TRUE(room && room->is_under({1, 1, 0}));
@@ -132,7 +132,7 @@ TEST(Rooms, EndBandsOnWalls) {
     const rays::RayCaster caster(scene);
     const auto rooms = find_rooms(scene, caster);
     const PolygonInSpace board{{{0.01, 1, 1}, {0.01, 2, 1}, {0.01, 2, 2}, {0.01, 1, 2}}, {}};
-    Area band = settled({.polygon = board, .band_m = {0, 2}});
+    Area band = settled_area({.polygon = board, .band_m = {0, 2}});
     const std::size_t before = band.points.size();
     end_at_walls(*room_of(rooms, band), scene, caster, band);
     EXPECT_LT(band.points.size(), before);

@@ -11,7 +11,7 @@
 namespace stilb::statistics {
 namespace {
 
-constexpr int kRuns = 2000;
+constexpr int kCombinations = 2000;
 
 Quantity quantity_from(std::vector<double> replicates) {
     const Estimate estimate = estimate_from_replicates(replicates);
@@ -58,7 +58,7 @@ std::pair<double, double> coverage_of_ratios(const PairModel& model) {
     // The variance of da / b - a db / b^2 with a = 10, b = 20.
     const double error =
         model.error * std::sqrt((0.0025 + 0.000625 - 2 * 0.00125 * model.correlation) / count);
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < kCombinations; ++run) {
         std::vector<double> a, b;
         for (std::size_t r = 0; r < model.replicates; ++r) {
             const double first = normal(random), second = normal(random);
@@ -69,9 +69,9 @@ std::pair<double, double> coverage_of_ratios(const PairModel& model) {
         const double x = quantities[0].estimate.value, y = quantities[1].estimate.value;
         const Estimate ratio = combine(x / y, std::vector{1 / y, -x / (y * y)}, quantities, 0.95).estimate;
         held += ratio.lower <= 0.5 && 0.5 <= ratio.upper;
-        width += (ratio.upper - ratio.lower) / 2 / kRuns;
+        width += (ratio.upper - ratio.lower) / 2 / kCombinations;
     }
-    return {held / static_cast<double>(kRuns), width / (1.96 * error)};
+    return {held / static_cast<double>(kCombinations), width / (1.96 * error)};
 }
 
 TEST(Combination, IntervalsOfRatiosHold) {

@@ -13,7 +13,7 @@
 namespace stilb::statistics {
 namespace {
 
-constexpr int kRuns = 2000;
+constexpr int kGridRuns = 2000;
 constexpr double kLeastCoverage = 0.94;  // of 0.95 promised: two standard errors of 2000 runs
 
 /// Grids of normal errors: part of every replicate's error is common to all readings, as from common light
@@ -68,11 +68,11 @@ struct Coverage {
 
     void add(const Estimate& estimate, double truth) {
         held += estimate.lower <= truth && truth <= estimate.upper ? 1 : 0;
-        half_width += (estimate.upper - estimate.lower) / 2 / kRuns;
+        half_width += (estimate.upper - estimate.lower) / 2 / kGridRuns;
         EXPECT_LE(estimate.lower, estimate.value);
         EXPECT_GE(estimate.upper, estimate.value);
     }
-    double share() const { return held / static_cast<double>(kRuns); }
+    double share() const { return held / static_cast<double>(kGridRuns); }
 };
 
 std::vector<double> equal_values(std::size_t points) { return std::vector<double>(points, 100.0); }
@@ -101,7 +101,7 @@ TEST_P(SimulatedGrid, IntervalsCoverTheTruth) {
     const GridModel& model = GetParam();
     GridSimulator simulator(model);
     Coverage mean, minimum, maximum, uniformity, diversity;
-    for (int run = 0; run < kRuns; ++run) {
+    for (int run = 0; run < kGridRuns; ++run) {
         const GridSummary summary = simulator.run();
         mean.add(summary.mean, model.mean());
         minimum.add(summary.minimum, model.minimum());

@@ -12,7 +12,7 @@ namespace stilb::statistics {
 namespace {
 
 constexpr std::size_t kWidth = 64, kPixels = kWidth * kWidth;
-constexpr int kReplicates = 4;
+constexpr int kPooledReplicates = 4;
 
 /// A picture of normal errors around 1 with the deviation `sigma(x, y)`, and its own errors.
 template <typename Sigma>
@@ -22,9 +22,9 @@ struct NoisyPicture {
         std::normal_distribution<double> normal;
         for (std::size_t i = 0; i < kPixels; ++i) {
             std::vector<double> replicates;
-            for (int r = 0; r < kReplicates; ++r)
-                replicates.push_back(1 +
-                                     sigma(i % kWidth, i / kWidth) * std::sqrt(kReplicates) * normal(random));
+            for (int r = 0; r < kPooledReplicates; ++r)
+                replicates.push_back(1 + sigma(i % kWidth, i / kWidth) * std::sqrt(kPooledReplicates) *
+                                             normal(random));
             const Estimate estimate = estimate_from_replicates(replicates);
             values[i] = static_cast<float>(estimate.value);
             errors[i] = static_cast<float>(estimate.standard_error);
@@ -40,7 +40,7 @@ double coverage(const Sigma& sigma, const Counted& counted) {
     for (unsigned seed = 1; seed <= 20; ++seed) {
         const NoisyPicture picture(seed, sigma);
         const PooledErrors<float> pooled =
-            pool_errors<float>(kWidth, picture.values, picture.errors, kReplicates - 1);
+            pool_errors<float>(kWidth, picture.values, picture.errors, kPooledReplicates - 1);
         for (std::size_t i = 0; i < kPixels; ++i) {
             if (!counted(i % kWidth)) continue;
             const double t = student_t_quantile(0.975, pooled.degrees_of_freedom[i]);
@@ -73,7 +73,7 @@ TEST(PooledErrors, HaveMoreDegreesOfFreedomThanAPixel) {
     const auto even = [](std::size_t, std::size_t) { return 0.01; };
     const NoisyPicture picture(1, even);
     const PooledErrors<float> pooled =
-        pool_errors<float>(kWidth, picture.values, picture.errors, kReplicates - 1);
+        pool_errors<float>(kWidth, picture.values, picture.errors, kPooledReplicates - 1);
     double degrees = 0, squared = 0;
     for (std::size_t i = 0; i < kPixels; ++i) {
         degrees += pooled.degrees_of_freedom[i] / static_cast<double>(kPixels);

@@ -11,7 +11,7 @@
 namespace stilb::statistics {
 namespace {
 
-constexpr std::size_t kReplicates = 32;
+constexpr std::size_t kRareReplicates = 32;
 
 TEST(RareLight, ComparesTheLargestContributionWithTheTypicalOne) {
     std::vector<double> of_replicates{3, 1, 9, 2, 4};
@@ -52,9 +52,9 @@ struct SimulatedRun {
     std::uint64_t samples = 0;
 
     SimulatedRun(std::uint64_t each, const std::function<double()>& contribution)
-        : samples(each * kReplicates) {
+        : samples(each * kRareReplicates) {
         std::vector<double> means, of_replicates;
-        for (std::size_t r = 0; r < kReplicates; ++r) {
+        for (std::size_t r = 0; r < kRareReplicates; ++r) {
             double sum = 0, most = 0;
             for (std::uint64_t i = 0; i < each; ++i) {
                 const double added = contribution();
@@ -76,7 +76,7 @@ TEST(RareLight, IsContainedInTheIntervalWhereItWasFound) {
     std::mt19937_64 random(3);
     std::uniform_real_distribution<double> uniform;
     constexpr std::uint64_t kEach = 64;
-    constexpr double kSamples = kEach * kReplicates;
+    constexpr double kSamples = kEach * kRareReplicates;
     for (const double expected : {1.0, 2.0, 4.0, 8.0}) {
         int found = 0, held = 0, warned = 0;
         for (int i = 0; i < 1500; ++i) {

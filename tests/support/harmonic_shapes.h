@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -13,6 +14,8 @@
 #include "support/scene_builder.h"
 
 namespace stilb {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 class Numbers {
   public:

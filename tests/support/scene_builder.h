@@ -12,6 +12,8 @@
 
 namespace stilb {
 
+inline constexpr Vec3 kUp{0, 0, 1};
+
 Material diffuse(double reflectance);
 
 MaterialId add_material(Scene& scene, const Material& material);

@@ -141,7 +141,7 @@ TEST(Entries, HaveEightPlaces) {
 
 // Particles.
 
-constexpr int kReplicates = 32;
+constexpr int kEntryReplicates = 32;
 
 /// Balls that measured points see from all sides, in all sizes of scenes: they receive from each direction
 /// over their cross-sections.
@@ -165,7 +165,7 @@ TEST(Entries, BringBallsTheirFlux) {
             const auto& light = std::get<EnvironmentLight>(scene.lights[0].source);
             const double total_lx = is_panorama ? light.panorama->total_lx().luminance() : 4 * kPi * 30;
             std::vector<std::vector<double>> means(balls.size());
-            for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {
+            for (std::uint64_t replicate = 0; replicate < kEntryReplicates; ++replicate) {
                 constexpr std::uint64_t particles = 1 << 12;
                 std::vector<double> sums(balls.size() + 1);
                 for (std::uint64_t i = 0; i < particles; ++i) {
@@ -182,7 +182,7 @@ TEST(Entries, BringBallsTheirFlux) {
                 // They shade each other by some hundred thousandths.
                 const double exact_lm = kPi * balls[ball].radius * balls[ball].radius * total_lx;
                 const double z = z_score(found, exact_lm);
-                EXPECT_LT(std::abs(statistics::equivalent_z(z, kReplicates - 1)), 4)
+                EXPECT_LT(std::abs(statistics::equivalent_z(z, kEntryReplicates - 1)), 4)
                     << ball << ' ' << far_m << ": " << found.value << ' ' << exact_lm;
                 EXPECT_LT(found.standard_error, 0.04 * exact_lm) << ball << ' ' << far_m;
             }

@@ -14,7 +14,7 @@
 namespace stilb::transport {
 namespace {
 
-constexpr int kReplicates = 32;
+constexpr int kSkyReplicates = 32;
 
 /// A ball in a corner of the scene's box, which a speck in the opposite corner spans.
 constexpr Sphere kBall{{0, 0, 0}, 0.5};
@@ -29,7 +29,7 @@ Scene ball_and_speck() {
 template <typename Sample>
 statistics::Estimate mean_of(const Sample& sample, std::uint64_t samples = 1 << 12) {
     std::vector<double> means;
-    for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {
+    for (std::uint64_t replicate = 0; replicate < kSkyReplicates; ++replicate) {
         double sum = 0;
         for (std::uint64_t i = 0; i < samples; ++i) {
             math::SampleStream stream(math::RandomKey{replicate}, i);
@@ -41,7 +41,7 @@ statistics::Estimate mean_of(const Sample& sample, std::uint64_t samples = 1 << 
 }
 
 void expect_agrees(const statistics::Estimate& measured, double exact, double largest_error) {
-    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(measured, exact), kReplicates - 1)), 4)
+    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(measured, exact), kSkyReplicates - 1)), 4)
         << measured.value << ' ' << exact;
     EXPECT_LT(measured.standard_error, largest_error * exact);
 }
@@ -195,7 +195,7 @@ TEST(EnvironmentIncident, OneOfAllLightsHasTheDensityThatIsSaid) {
         return sum;
     };
     const statistics::Estimate sum = mean_of(all);
-    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(one, sum), kReplicates - 1)), 4);
+    EXPECT_LT(std::abs(statistics::equivalent_z(z_score(one, sum), kSkyReplicates - 1)), 4);
     EXPECT_LT(one.standard_error, 0.01 * one.value);
 }
 

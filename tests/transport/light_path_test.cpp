@@ -18,14 +18,14 @@ namespace {
 constexpr Box kRoom{{0, 0, 0}, {4, 3, 2.8}};
 constexpr int kUnlimited = std::numeric_limits<int>::max();
 constexpr std::uint64_t kLightPaths = 1 << 13;
-constexpr int kReplicates = 32;
+constexpr int kPathReplicates = 32;
 
 /// Flux [lm] that all reflections together send out: nodes' flux times albedo, from replicates.
 statistics::Estimate reflected_flux(const Scene& scene, int max_nodes, const Rgb& reflectance) {
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     std::vector<double> means;
-    for (int r = 0; r < kReplicates; ++r) {
+    for (int r = 0; r < kPathReplicates; ++r) {
         const math::RandomKey key = math::RandomKey{3}.derived(static_cast<std::uint64_t>(r));
         std::vector<LightVertex> nodes;
         for (std::uint64_t i = 0; i < kLightPaths; ++i) {

@@ -14,12 +14,12 @@
 namespace stilb::transport {
 namespace {
 
-constexpr Rgb kWhite = Rgb::grey(1);
+constexpr Rgb kWhiteLamp = Rgb::grey(1);
 
 /// Light of one emitter on a receiver, as the sampler gives it, against the exact value.
 void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, double exact_lx) {
     Scene scene;
-    add_area_light(scene, shape, 100 * kWhite);
+    add_area_light(scene, shape, 100 * kWhiteLamp);
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     std::vector<double> means;
@@ -51,7 +51,7 @@ TEST(ExtendedLights, OfManySomeStandForAll) {
         const Vec3 corner{0.4 * (i % 10), 0.4 * (i / 10), 2 + 0.01 * i};
         add_area_light(scene, Rectangle{corner, {0, 0.1, 0}, {0.1, 0, 0}}, Rgb::grey(1 + i % 7));
     }
-    add_point_light(scene, {2, 2, 1.5}, kWhite);  // has no extent
+    add_point_light(scene, {2, 2, 1.5}, kWhiteLamp);  // has no extent
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const ReceivingPoint oriented{{1.3, 0.8, 0.5}, Vec3{0.6, 0, 0.8}}, free{{1.3, 0.8, 0.5}, std::nullopt};
@@ -82,7 +82,8 @@ TEST(ExtendedLights, OfManySomeStandForAll) {
 TEST(ExtendedLights, HaveTheDensityThatTheyAreSampledWith) {
     Scene scene;
     for (int i = 0; i < 40; ++i) {
-        add_area_light(scene, Rectangle{{0.4 * (i % 8), 0.4 * (i / 8), 2}, {0, 0.2, 0}, {0.2, 0, 0}}, kWhite);
+        add_area_light(scene, Rectangle{{0.4 * (i % 8), 0.4 * (i / 8), 2}, {0, 0.2, 0}, {0.2, 0, 0}},
+                       kWhiteLamp);
     }
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
@@ -101,8 +102,8 @@ TEST(ExtendedLights, HaveTheDensityThatTheyAreSampledWith) {
 /// What is made elsewhere is never chosen, and counts nothing where a path runs into it.
 TEST(IncidentLight, LeavesOutWhatIsMadeElsewhere) {
     Scene scene;
-    add_area_light(scene, Rectangle{{0, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhite);
-    add_area_light(scene, Rectangle{{2, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhite);
+    add_area_light(scene, Rectangle{{0, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhiteLamp);
+    add_area_light(scene, Rectangle{{2, 0, 3}, {0, 1, 0}, {1, 0, 0}}, kWhiteLamp);
     const rays::RayCaster caster(scene);
     const LightSampler rest(scene, caster, {true, false}), none(scene, caster, {true, true});
     const Vec3 from{1, 0.5, 0}, up{0, 0, 1};
@@ -143,7 +144,7 @@ TEST(IncidentLight, OfShapesIsThatOfConfigurationFactors) {
 
 TEST(IncidentLight, OfAPointIsExact) {
     Scene scene;
-    add_point_light(scene, {1, 2, 3}, 50 * kWhite);
+    add_point_light(scene, {1, 2, 3}, 50 * kWhiteLamp);
     const rays::RayCaster caster(scene);
     const auto incident = LightSampler(scene, caster).sample_incident(0, Vec3{0, 0, 0}, {});
     ASSERT_TRUE(incident);
@@ -153,10 +154,10 @@ TEST(IncidentLight, OfAPointIsExact) {
 /// A receiver lit by several lights, one chosen at random, against all of them added up.
 TEST(IncidentLight, OfOneChosenLightIsThatOfAll) {
     Scene scene;
-    add_point_light(scene, {1, 0, 2}, 30 * kWhite);
-    add_point_light(scene, {-1, 1, 1}, 5 * kWhite);
-    add_point_light(scene, {0, 0, -1}, 500 * kWhite);  // below the horizon
-    add_area_light(scene, Sphere{{0.5, 1, 2}, 0.3}, 20 * kWhite);
+    add_point_light(scene, {1, 0, 2}, 30 * kWhiteLamp);
+    add_point_light(scene, {-1, 1, 1}, 5 * kWhiteLamp);
+    add_point_light(scene, {0, 0, -1}, 500 * kWhiteLamp);  // below the horizon
+    add_area_light(scene, Sphere{{0.5, 1, 2}, 0.3}, 20 * kWhiteLamp);
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const exact::Receiver receiver{{0, 0, 0}, {0, 0, 1}};
@@ -221,12 +222,12 @@ TEST(IncidentLight, OfSomeLightsIsThatOfAll) {
 
 TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
     Scene scene;
-    add_area_light(scene, Box{{1, 1, 1}, {1.5, 1.3, 1.2}}, 10 * kWhite);
-    add_area_light(scene, inward(Box{{-9, -9, -9}, {9, 9, 9}}), kWhite);
-    add_area_light(scene, Rectangle{{-1, -1, 2}, {0, 1, 0}, {1, 0.2, 0}}, 5 * kWhite);
-    add_area_light(scene, Disk{{-1, 1, 1}, normalized(Vec3{1, -1, -1}), 0.4}, 20 * kWhite);
-    add_area_light(scene, Sphere{{1, -1, 1}, 0.3}, 20 * kWhite);
-    add_point_light(scene, {0, 0, 1.5}, kWhite);
+    add_area_light(scene, Box{{1, 1, 1}, {1.5, 1.3, 1.2}}, 10 * kWhiteLamp);
+    add_area_light(scene, inward(Box{{-9, -9, -9}, {9, 9, 9}}), kWhiteLamp);
+    add_area_light(scene, Rectangle{{-1, -1, 2}, {0, 1, 0}, {1, 0.2, 0}}, 5 * kWhiteLamp);
+    add_area_light(scene, Disk{{-1, 1, 1}, normalized(Vec3{1, -1, -1}), 0.4}, 20 * kWhiteLamp);
+    add_area_light(scene, Sphere{{1, -1, 1}, 0.3}, 20 * kWhiteLamp);
+    add_point_light(scene, {0, 0, 1.5}, kWhiteLamp);
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const Vec3 from{0, 0, 0}, normal{0, 0, 1};
@@ -255,7 +256,7 @@ TEST(Emission, SharesFluxAmongLightsAndLeavesTheirFronts) {
     Scene scene;
     add_point_light(scene, {0, 0, 5}, {{1, 2, 3}});
     add_area_light(scene, Rectangle{{0, 0, 0}, {1, 0, 0}, {0, 2, 0}}, {{4, 2, 1}});
-    add_area_light(scene, Sphere{{5, 0, 0}, 0.5}, 3 * kWhite);
+    add_area_light(scene, Sphere{{5, 0, 0}, 0.5}, 3 * kWhiteLamp);
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     constexpr std::uint64_t kParticles = 1 << 16;

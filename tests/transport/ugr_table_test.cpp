@@ -27,7 +27,7 @@ PhotometricSolid diffuse_solid(double peak_cd, double more = 0) {
     return PhotometricSolid(grid);
 }
 
-constexpr lights::Opening kPanel{lights::Opening::Form::box, {0.6, 0.6, 0}};
+constexpr lights::Opening kPanelOpening{lights::Opening::Form::box, {0.6, 0.6, 0}};
 
 std::size_t room_number(int across, int along) {
     const auto found = std::ranges::find_if(
@@ -70,7 +70,7 @@ TEST(UgrTable, AddsUpAllReflections) {
 /// One luminaire in the smallest room with a spacing of its size: a rating by hand.
 TEST(UgrTable, IsTheFormula) {
     const PhotometricSolid solid = diffuse_solid(1000);
-    const UgrTable table = ugr_table(solid, kPanel, 2);
+    const UgrTable table = ugr_table(solid, kPanelOpening, 2);
     // The luminaire is in the middle: 1 H ahead, 1 H above the eye, at 45 degrees from its nadir.
     const double area_m2 = 0.36 * std::sqrt(0.5), distance_m = kUgrHeight_m * std::sqrt(2.0);
     const double luminance_cd_m2 = 1000 * std::sqrt(0.5) / area_m2;
@@ -93,15 +93,16 @@ TEST(UgrTable, IsTheFormula) {
 /// Close luminaires are a ceiling that shines all over: with half the usual spacing, little changes.
 TEST(UgrTable, TendsToALimitForSmallSpacings) {
     const PhotometricSolid solid = diffuse_solid(1000);
-    const UgrTable close = ugr_table(solid, kPanel, 0.125), usual = ugr_table(solid, kPanel, 0.25);
+    const UgrTable close = ugr_table(solid, kPanelOpening, 0.125),
+                   usual = ugr_table(solid, kPanelOpening, 0.25);
     const std::size_t room = room_number(8, 12);
     EXPECT_NEAR(close.crosswise[room][0], usual.crosswise[room][0], 0.1);
 }
 
 /// The rating grows by 8 log10 of the flux; more flux does not change the differences between rooms.
 TEST(UgrTable, GrowsWithTheFlux) {
-    const UgrTable one = ugr_table(diffuse_solid(1000), kPanel, 0.25);
-    const UgrTable three = ugr_table(diffuse_solid(3000), kPanel, 0.25);
+    const UgrTable one = ugr_table(diffuse_solid(1000), kPanelOpening, 0.25);
+    const UgrTable three = ugr_table(diffuse_solid(3000), kPanelOpening, 0.25);
     for (std::size_t room = 0; room < kUgrRooms.size(); ++room) {
         for (std::size_t s = 0; s < kUgrReflectances.size(); ++s)
             EXPECT_NEAR(three.endwise[room][s] - one.endwise[room][s], 8 * std::log10(3.0), 1e-9);
@@ -123,7 +124,7 @@ TEST(UgrTable, LooksAcrossTheLongSideOrAlongIt) {
 
 TEST(UgrTable, IsMinusInfinityWhereNoLightReachesTheEye) {
     PhotometricSolid::Grid up{lights::PhotometryType::C, {0}, {0, 90, 95, 180}, {0, 0, 100, 100}};
-    const UgrTable table = ugr_table(PhotometricSolid(up), kPanel, 0.25);
+    const UgrTable table = ugr_table(PhotometricSolid(up), kPanelOpening, 0.25);
     EXPECT_TRUE(std::isinf(table.crosswise[0][0]) && table.crosswise[0][0] < 0);
 }
 
