@@ -8,7 +8,7 @@
 namespace stilb::verification {
 namespace {
 
-RunOptions quick_options() {
+RunOptions cie_options() {
     RunOptions options;
     options.error = 0.01;
     return options;
@@ -22,7 +22,7 @@ TEST(Cie171, AllCasesAgree) {
     std::set<std::string> numbers;
     for (const Cie171Case& c : cie171_cases()) {
         numbers.insert(c.number);
-        const std::vector<CheckedReading> readings = verify(c, quick_options());
+        const std::vector<CheckedReading> readings = verify(c, cie_options());
         ASSERT_EQ(readings.size(), c.rows.size());
         for (std::size_t i = 0; i < readings.size(); ++i) {
             EXPECT_FALSE(readings[i].contradicts())
@@ -37,7 +37,7 @@ TEST(Cie171, FindsAWrongReference) {
     for (const char* number : {"5.3", "5.4", "5.7"}) {
         Cie171Case c = case_of(cases, number);
         c.rows.front().exact *= 1.05;
-        EXPECT_TRUE(verify(c, quick_options()).front().contradicts()) << number;
+        EXPECT_TRUE(verify(c, cie_options()).front().contradicts()) << number;
     }
 }
 

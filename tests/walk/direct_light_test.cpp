@@ -14,15 +14,15 @@ namespace {
 
 constexpr Rectangle kPanel{{-0.5, -0.4, 2}, {0, 0.8, 0}, {1, 0, 0}};  // shines downwards
 
-struct Light {
+struct LightOfLamps {
     std::vector<float> lx;
     double error_lx = 0;
 };
 
-Light light_at(const Scene& scene, const Vec3& position, const Vec3& normal) {
+LightOfLamps light_at(const Scene& scene, const Vec3& position, const Vec3& normal) {
     const rays::RayCaster caster(scene);
     const DirectLight direct(scene, caster);
-    Light light{std::vector<float>(direct.count())};
+    LightOfLamps light{std::vector<float>(direct.count())};
     light.error_lx = std::sqrt(direct.add({position, position + 1e-5 * normal, normal}, 1, light.lx));
     return light;
 }
@@ -40,7 +40,7 @@ TEST(DirectLight, OfAPointIsExact) {
     Scene scene = floor_and(kFarAway);
     add_point_light(scene, {0.3, -0.2, 1.5}, Rgb::grey(200));
     for (const double x : {-2.0, 0.0, 0.3, 1.7}) {
-        const Light light = light_at(scene, {x, 0.5, 0}, {0, 0, 1});
+        const LightOfLamps light = light_at(scene, {x, 0.5, 0}, {0, 0, 1});
         const double expected =
             exact::illuminance_by_point_lx({{x, 0.5, 0}, {0, 0, 1}}, {0.3, -0.2, 1.5}, 200);
         EXPECT_NEAR(light.lx[0], expected, 1e-5 * expected);
@@ -58,7 +58,7 @@ TEST(DirectLight, OfAPanelIsThatOfItsConfigurationFactor) {
                                            {{2.9, -2.9, 0}, {0, 0, 1}},
                                            {{0.2, 0.1, 1.8}, {0, 0, 1}},
                                            {{0.3, 0.2, 0.5}, tilted}}) {
-        const Light light = light_at(scene, position, normal);
+        const LightOfLamps light = light_at(scene, position, normal);
         const double expected = exact::illuminance_by_rectangle_lx({position, normal}, kPanel.corner,
                                                                    kPanel.edge_u, kPanel.edge_v, 1000);
         EXPECT_NEAR(light.lx[0], expected, 0.01 * expected) << position.x;
@@ -70,7 +70,7 @@ TEST(DirectLight, OfAPanelIsThatOfItsConfigurationFactor) {
 TEST(DirectLight, CountsTheVisiblePartOfAPanel) {
     Scene scene = floor_and(Rectangle{{-0.51, -0.41, 1.999}, {0.76, 0, 0}, {0, 0.82, 0}});
     add_area_light(scene, kPanel, Rgb::grey(1000));
-    const Light light = light_at(scene, {1, 0.2, 0}, {0, 0, 1});
+    const LightOfLamps light = light_at(scene, {1, 0.2, 0}, {0, 0, 1});
     const double expected = exact::illuminance_by_rectangle_lx({{1, 0.2, 0}, {0, 0, 1}}, {0.25, -0.4, 2},
                                                                {0, 0.8, 0}, {0.25, 0, 0}, 1000);
     EXPECT_NEAR(light.lx[0], expected, 0.05 * expected);
@@ -83,7 +83,7 @@ TEST(DirectLight, PassesThroughPanes) {
     const ThinDielectric pane = materials::make<ThinDielectric>({}, "pane");
     add_object(scene, Rectangle{{-3, -3, 1}, {6, 0, 0}, {0, 6, 0}}, pane);
     add_point_light(scene, {0, 0, 2}, Rgb::grey(100));
-    const Light light = light_at(scene, {0, 0, 0}, {0, 0, 1});
+    const LightOfLamps light = light_at(scene, {0, 0, 0}, {0, 0, 1});
     EXPECT_NEAR(light.lx[0], 25 * straight_transmittance(pane, 1).luminance(), 1e-4);
 }
 
@@ -91,7 +91,7 @@ TEST(DirectLight, PassesThroughPanes) {
 TEST(DirectLight, OfTheSkyIsComplete) {
     Scene scene = floor_and(kFarAway);
     add_environment(scene, Rgb::grey(100));
-    const Light light = light_at(scene, {0, 0, 0}, {0, 0, 1});
+    const LightOfLamps light = light_at(scene, {0, 0, 0}, {0, 0, 1});
     EXPECT_NEAR(light.lx[0], 100 * kPi, 1e-3);
 }
 
@@ -100,7 +100,7 @@ TEST(DirectLight, KeepsLightsApart) {
     add_point_light(scene, {0, 0, 1}, Rgb::grey(100));
     add_area_light(scene, kPanel, Rgb::grey(1000));
     add_point_light(scene, {0, 0, 1}, Rgb{{100, 0, 0}});
-    const Light light = light_at(scene, {0, 0, 0}, {0, 0, 1});
+    const LightOfLamps light = light_at(scene, {0, 0, 0}, {0, 0, 1});
     EXPECT_FLOAT_EQ(light.lx[0], 100);
     EXPECT_EQ(light.lx[1], 0);
     EXPECT_FLOAT_EQ(light.lx[2], 21.26F);

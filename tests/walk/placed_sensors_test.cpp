@@ -14,7 +14,7 @@
 namespace stilb::walk {
 namespace {
 
-constexpr const char* kRoom = R"(
+constexpr const char* kPlacedRoom = R"(
 [materials.wall]
 type = "diffuse"
 reflectance = 0.5
@@ -47,7 +47,7 @@ TEST(PlacedSensors, AreReadBackAsTheyWere) {
             {"name": "left \"wall\" [1].ä", "type": "illuminance", "position": [1e-9, -1, 1.25], "normal": [1, 1, 0]},
             {"name": "eye", "type": "luminance", "position": [1, 1, 1.2], "direction": [0, 3, 4]}]})",
         {});
-    const io::SceneFile file = io::read_scene(kRoom + to_toml(placed), "s.toml", ".");
+    const io::SceneFile file = io::read_scene(kPlacedRoom + to_toml(placed), "s.toml", ".");
     ASSERT_EQ(file.sensors.size(), 3u);
     EXPECT_EQ(file.warnings, std::vector<std::string>{});
     for (std::size_t i = 0; i < placed.size(); ++i) {
@@ -123,7 +123,7 @@ TEST(PlacedSensors, TheAnswerSaysWhereTheyAre) {
     EXPECT_NE(answer.find(R"("toml":"[sensors.a]\ntype = )"), std::string::npos) << answer;
     EXPECT_NE(answer.find(R"("saved":"room-sensors.toml")"), std::string::npos) << answer;
     const std::string text = io::read_whole_file(folder / "room-sensors.toml");
-    EXPECT_EQ(io::read_scene(kRoom + text, "s.toml", ".").sensors.size(), 1u);
+    EXPECT_EQ(io::read_scene(kPlacedRoom + text, "s.toml", ".").sensors.size(), 1u);
     EXPECT_THROW(keep_placed_sensors(request, {}, folder / "none" / "room.toml"), InputError);
 }
 

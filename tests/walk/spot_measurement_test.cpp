@@ -16,7 +16,7 @@ namespace stilb::walk {
 namespace {
 
 /// Four lights of four kinds, two of them in one group.
-constexpr const char* kRoom = R"(
+constexpr const char* kSpotRoom = R"(
 [materials.wall]
 type = "diffuse"
 reflectance = [0.7, 0.5, 0.3]
@@ -49,7 +49,7 @@ group = "bulbs"
 
 class SpotTest : public testing::Test {
   protected:
-    io::SceneFile file_ = io::read_scene(kRoom, "s.toml", ".");
+    io::SceneFile file_ = io::read_scene(kSpotRoom, "s.toml", ".");
     RunOptions options_;
     SpotMeter meter_{file_.scene, options_};
 
@@ -91,7 +91,7 @@ TEST_F(SpotTest, AgreesWithAMeasurement) {
 }
 
 TEST_F(SpotTest, FactorsAreThoseOfADimmedScene) {
-    io::SceneFile dimmed = io::read_scene(kRoom, "s.toml", ".");
+    io::SceneFile dimmed = io::read_scene(kSpotRoom, "s.toml", ".");
     for (Light& light : dimmed.scene.lights) {
         if (auto* area = std::get_if<lights::AreaLight>(&light.source)) area->luminance_cd_m2 *= 0.25;
         if (auto* point = std::get_if<lights::PointLight>(&light.source))
@@ -112,7 +112,7 @@ TEST_F(SpotTest, LightsThatAreOffAreLeftOut) {
 }
 
 TEST_F(SpotTest, FactorsOfEveryKindOfLight) {
-    const std::string sky = std::string(kRoom) + "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
+    const std::string sky = std::string(kSpotRoom) + "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
     const io::SceneFile file = io::read_scene(sky, "s.toml", ".");
     const std::array factors{LightFactor{"sky", Rgb::grey(3)}, LightFactor{"panel", {{1.0, 2.0, 3.0}}}};
     const Scene scene = with_factors(file.scene, factors);
