@@ -17,7 +17,7 @@ namespace {
 double step_s(const estimators::PatchTransport& transport) {
     const auto patches = static_cast<double>(transport.patches.count());
     const auto steps = static_cast<int>(std::clamp(2e6 / patches, 3., 100.));
-    estimators::BundleIteration iteration(transport, math::RandomKey{1});
+    estimators::BundleIteration iteration(transport, {math::RandomKey{1}});
     iteration.step();
     const std::clock_t start = std::clock();
     for (int i = 0; i < steps; ++i) iteration.step();

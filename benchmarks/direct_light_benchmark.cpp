@@ -145,7 +145,7 @@ void compare_counts(std::string_view method, int max_reflections) {
         const auto estimator = estimators::find_estimator(method).make({.scene = scene,
                                                                         .caster = caster,
                                                                         .max_reflections = max_reflections,
-                                                                        .preparation_key = math::RandomKey{5},
+                                                                        .preparation_key = {math::RandomKey{5}},
                                                                         .camera = camera()});
         const double setup_s = processor_s() - start;
         const Measure measure = picture_with(*estimator, camera().resolution);

@@ -23,7 +23,7 @@ Efficiency of_readings(const estimators::EstimatorEntry& method, const Scene& sc
                        const std::vector<Measurand>& measurands) {
     const rays::RayCaster caster(scene);
     const auto estimator =
-        method.make({scene, caster, transport::kUnlimited, math::RandomKey{5}, measurands});
+        method.make({scene, caster, transport::kUnlimited, {math::RandomKey{5}}, measurands});
     return efficiency_of(readings_with(*estimator), estimator->batch_granularity());
 }
 
@@ -32,7 +32,7 @@ Efficiency of_picture(const estimators::EstimatorEntry& method, const Scene& sce
     const auto estimator = method.make({.scene = scene,
                                         .caster = caster,
                                         .max_reflections = transport::kUnlimited,
-                                        .preparation_key = math::RandomKey{5},
+                                        .preparation_key = {math::RandomKey{5}},
                                         .camera = camera});
     return efficiency_of(picture_with(*estimator, camera.resolution), 1);
 }

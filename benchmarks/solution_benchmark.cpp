@@ -68,7 +68,7 @@ Reflected reflected_in(const estimators::PatchTransport& transport, math::Random
     }
     Reflected result;
     result.exact.resize(seen.size());
-    estimators::BundleIteration iteration(transport, key);
+    estimators::BundleIteration iteration(transport, {key});
     const std::array<const estimators::BundleIteration*, 1> walks{&iteration};
     for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
     for (int step = 0; step < kSteps; ++step) {

@@ -107,7 +107,7 @@ Work work_of(estimators::Problem problem, const estimators::EstimatorEntry& tech
     std::vector<double> set_ups, works;
     for (std::uint64_t i = 0; i < kSetUps; ++i) {
         const math::RandomKey own = key.derived(i);
-        problem.preparation_key = own.derived(rounds);
+        problem.preparation_key = {own.derived(rounds)};
         std::unique_ptr<estimators::Estimator> estimator;
         set_ups.push_back(rays_of([&] { estimator = technique.make(problem); }));
         const Measure measure = problem.camera ? picture_with(*estimator, problem.camera->resolution, own)

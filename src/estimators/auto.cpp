@@ -35,7 +35,6 @@ namespace {
 constexpr std::size_t kMostReadings = 64;
 /// Pilots of more readings measure as many as these, in runs of neighbours, which share packets of rays.
 constexpr std::size_t kMostInPilots = 128, kRun = 16;
-enum PilotPurpose : std::uint64_t { kPath, kBalanced, kGuided };
 /// The smallest run by light paths takes about so much work after planning (as Estimator's costs).
 constexpr double kLeastOfLightPaths = 200'000;
 /// A run with few readings has so many replicates.
@@ -85,7 +84,7 @@ Pilot run_pilot(const Estimator& method, std::uint64_t samples, math::RandomKey 
     std::vector<std::vector<double>> parts(kPilots);
     parallel_for(kPilots, [&](std::size_t part) {
         ReadingSums sums(readings);
-        method.run_batch({key.derived(part), 0, samples}, sums);
+        method.run_batch({{key.derived(part)}, 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
             const Rgb mean = method.known_part()[j] + sums.sum[j] * (1 / static_cast<double>(samples));
             parts[part].push_back(mean.luminance());
@@ -234,7 +233,7 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
     const std::vector<PixelBlock> blocks = pilot_blocks(resolution);
     std::vector<std::unique_ptr<const PicturePass>> passes(kPilotReplicates * kPilotPasses);
     parallel_for(passes.size(), [&](std::size_t i) {
-        passes[i] = method.start({key.derived(i / kPilotPasses), i % kPilotPasses});
+        passes[i] = method.start({{key.derived(i / kPilotPasses)}, i % kPilotPasses});
     });
     std::vector<std::array<std::vector<double>, kPilotReplicates>> luminances(blocks.size());
     std::atomic<std::uint64_t> continued = 0;
@@ -366,7 +365,7 @@ Candidate::Trial trial_of_few(math::RandomKey key, const auto& samples_of, doubl
 }
 
 std::unique_ptr<Estimator> choose_for_few(const Problem& problem) {
-    const math::RandomKey key = problem.preparation_key;
+    const math::KeyOf key = problem.preparation_key;
     const auto paths = [](double cost, double least) {
         return [=](const Estimator& path) {
             return static_cast<std::uint64_t>(std::max(least, cost / path.cost_per_sample()));
@@ -377,13 +376,13 @@ std::unique_ptr<Estimator> choose_for_few(const Problem& problem) {
     if (!has_light_for_light_paths_only(problem.scene)) {
         candidates.push_back(
             {.make = make_path,
-             .trials = {trial_of_few(key.derived(kPath), paths(kQuickPilotCost, kLeastQuickPaths), kClearly),
-                        trial_of_few(key.derived(kPath), paths(kPathPilotCost, kLeastPaths))},
+             .trials = {trial_of_few(key.derived(PreparationStream::path_pilot), paths(kQuickPilotCost, kLeastQuickPaths), kClearly),
+                        trial_of_few(key.derived(PreparationStream::path_pilot), paths(kPathPilotCost, kLeastPaths))},
              .is_path = true});
     }
     candidates.push_back(
         {.make = make_balanced,
-         .trials = {trial_of_few(key.derived(kBalanced),
+         .trials = {trial_of_few(key.derived(PreparationStream::light_paths_pilot),
                                  [](const Estimator& method) { return method.batch_granularity(); })},
          .set_up_cost = planning * (problem.measurands.size() <= kVeryFew ? kWorthPlanning : 1),
          .least_cost = kLeastOfLightPaths});
@@ -401,24 +400,24 @@ EstimatorMaker guided_maker() {
 std::unique_ptr<Estimator> choose_for_many(const Problem& problem) {
     const Survey survey(problem);
     const Problem part = survey.part_of(problem);
-    const math::RandomKey key = problem.preparation_key;
+    const math::KeyOf key = problem.preparation_key;
     const auto trial = [](math::RandomKey own_key, std::uint64_t samples) {
         return Candidate::Trial{[=](const Estimator& method) { return run_pilot(method, samples, own_key); }};
     };
     const bool finds_all_by_rays = !has_light_for_light_paths_only(problem.scene);
     std::vector<Candidate> candidates{
         {.make = make_path,
-         .trials = {trial(key.derived(kPath), kComparedPaths)},
+         .trials = {trial(key.derived(PreparationStream::path_pilot), kComparedPaths)},
          .cost_left = finds_all_by_rays ? kLastResort : kNever,
          .is_path = true},
         {.make = make_balanced,
          .trials = {{[=](const Estimator& method) {
-             return run_pilot(method, method.batch_granularity(), key.derived(kBalanced));
+             return run_pilot(method, method.batch_granularity(), key.derived(PreparationStream::light_paths_pilot));
          }}},
          .cost_left = kPlanningRayCost * planning_rays(problem.measurands.size())}};
     if (problem.max_reflections == transport::kUnlimited) {
         candidates.push_back({.make = guided_maker(),
-                              .trials = {trial(key.derived(kGuided), kGuidedSamples)},
+                              .trials = {trial(key.derived(PreparationStream::guided_pilot), kGuidedSamples)},
                               .set_up_cost = kPatchCost * LightGuess::patch_count(problem.scene),
                               .factor = kSobolGain});
     }
@@ -426,16 +425,16 @@ std::unique_ptr<Estimator> choose_for_many(const Problem& problem) {
 }
 
 std::unique_ptr<Estimator> choose_for_picture(const Problem& problem) {
-    const math::RandomKey key = problem.preparation_key;
+    const math::KeyOf key = problem.preparation_key;
     const auto trial = [&](math::RandomKey own_key, double cost_of_pass) {
         return Candidate::Trial{[=, resolution = problem.camera->resolution](const Estimator& method) {
             return run_picture_pilot(method, resolution, cost_of_pass, own_key);
         }};
     };
-    std::vector<Candidate> candidates{{.make = make_balanced, .trials = {trial(key.derived(kBalanced), 1)}}};
+    std::vector<Candidate> candidates{{.make = make_balanced, .trials = {trial(key.derived(PreparationStream::light_paths_pilot), 1)}}};
     if (problem.max_reflections == transport::kUnlimited) {
         const double cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
-        candidates.push_back({.make = make_guided, .trials = {trial(key.derived(kGuided), cost)}});
+        candidates.push_back({.make = make_guided, .trials = {trial(key.derived(PreparationStream::guided_pilot), cost)}});
     }
     return choose(candidates, {problem, problem, picture_cost});
 }

@@ -18,7 +18,7 @@ std::uint32_t number_of(const Pixel& pixel, int width) {
 /// light and direction.
 math::SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
     constexpr unsigned sobol_dimensions = 8;
-    return {pass.key.derived(kPixels).derived(number_of(pixel, width)), pass.index, sobol_dimensions};
+    return {pass.key.derived(PassStream::pixels).derived(number_of(pixel, width)), pass.index, sobol_dimensions};
 }
 
 /// The unit direction of a pixel's sample; nothing outside of the camera's field.
@@ -44,7 +44,7 @@ void start_packet(const PictureTracing& tracing, std::span<const Pixel> pixels, 
     math::StreamPacket::Words numbers{};
     for (std::size_t i = 0; i < pixels.size(); ++i)
         numbers[i] = number_of(pixels[i], tracing.camera.resolution[0]);
-    set_derived_keys(pass.key.derived(kPixels), numbers, packet.streams);
+    set_derived_keys(pass.key.derived(PassStream::pixels), numbers, packet.streams);
     packet.streams.index_low.fill(static_cast<std::uint32_t>(pass.index));
     packet.streams.index_high.fill(static_cast<std::uint32_t>(pass.index >> 32));
     const math::NumberPacket in_pixel = next_four(packet.streams, kPacketSobolDimensions);

@@ -9,9 +9,6 @@
 
 namespace stilb::estimators {
 
-/// The part of a pass's key for the pixels' own numbers; other purposes take other numbers.
-inline constexpr std::uint64_t kPixels = 1;
-
 struct Pixel {
     int x = 0, y = 0;
 };

@@ -17,6 +17,7 @@
 #include "base/monitor.h"
 #include "base/rgb.h"
 #include "estimators/patch_light/patch_options.h"
+#include "estimators/streams.h"
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
@@ -31,7 +32,7 @@ struct Problem {
     int max_reflections;
     /// For decisions before sampling starts; independent of the keys of batches and passes. The same for all
     /// seeds of a run: a technique that is given back then decides as `auto` did that chose it.
-    math::RandomKey preparation_key{0x5ee0f7e57a11ed00};
+    math::KeyOf<PreparationStream> preparation_key{{0x5ee0f7e57a11ed00}};
     std::span<const Measurand> measurands = {};
     /// The weight of each measurand's relative variance. Empty: all equal.
     std::span<const double> weights = {};
@@ -64,7 +65,7 @@ struct Pace {
 /// The unit of work for readings: samples first ... first + count - 1 of the replicate that `key` identifies.
 /// The contribution of a batch depends on these and the paces alone.
 struct Batch {
-    math::RandomKey key;
+    math::KeyOf<BatchStream> key;
     std::uint64_t first = 0;
     std::uint64_t count = 0;
     /// The pace of each packet of readings (Estimator::packets()). If there are none, all readings take all
@@ -147,7 +148,7 @@ std::vector<PixelBlock> blocks_of(const std::array<int, 2>& resolution,
 /// The unit of work for pictures: sample `index` of the replicate that `key` identifies. A pass over
 /// a block depends on these and the block alone.
 struct Pass {
-    math::RandomKey key;
+    math::KeyOf<PassStream> key;
     std::uint64_t index = 0;
     std::uint64_t replicate = 0;  ///< its number, for light that was computed before
 };

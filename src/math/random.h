@@ -15,6 +15,15 @@ struct RandomKey {
     RandomKey derived(std::uint64_t part) const;
 };
 
+/// A key whose parts serve the purposes of one enumeration: two families of streams under one key do not
+/// compile.
+template <typename Purpose>
+struct KeyOf {
+    RandomKey key;
+
+    RandomKey derived(Purpose purpose) const { return key.derived(static_cast<std::uint64_t>(purpose)); }
+};
+
 // Blocks and indices that no stream reaches.
 
 /// The block of the words of derived keys.

@@ -157,7 +157,7 @@ void Campaign::advance(std::uint64_t count) {
         parallel_for(replicates_.size() * strands, [&](std::size_t task) {
             Replicate& replicate = replicates_[task / strands];
             const std::size_t s = task % strands;
-            replicate.strands[s].add({replicate.key, samples_ + s * each, each, replicate.paces}, estimator_);
+            replicate.strands[s].add({{replicate.key}, samples_ + s * each, each, replicate.paces}, estimator_);
         });
     } catch (const Cancelled&) {
         if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples() == 0; });

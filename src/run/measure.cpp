@@ -20,6 +20,7 @@
 #include "transport/line_of_sight.h"
 #include "transport/receiver.h"
 #include "transport/sharp_light.h"
+#include "run/streams.h"
 
 namespace stilb::run {
 namespace {
@@ -28,7 +29,6 @@ constexpr double kConfidence = 0.95;
 /// Samples that a run makes for the sake of sharp light before its first error estimate: some seconds of
 /// work.
 constexpr std::uint64_t kMostAwaited = 1 << 20;
-enum ReadingPurpose : std::uint64_t { kReadingReplicates = 1, kReadingGlare };
 
 void require_measurable(std::span<const Sensor> sensors, const estimators::EstimatorEntry& method) {
     for (const Sensor& sensor : sensors) {
@@ -309,11 +309,11 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
         const PictureSetting setting{scene, session.caster(), options.bounces.value_or(transport::kUnlimited),
                                      options.seed, session.monitor()};
         glare.emplace(sensors, setting, plan.replicates,
-                      math::RandomKey{options.seed}.derived(kReadingGlare));
+                      key_of_seed(options.seed).derived(RunStream::glare));
     });
     const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
     Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(),
-                      math::RandomKey{options.seed}.derived(kReadingReplicates), plan,
+                      key_of_seed(options.seed).derived(RunStream::readings), plan,
                       std::min(sharp.samples, kMostAwaited));
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });

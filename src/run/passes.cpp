@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "base/parallel.h"
+#include "run/streams.h"
 
 namespace stilb::run {
 namespace {
@@ -25,9 +26,9 @@ Passes::Passes(const estimators::Estimator& estimator, const std::array<int, 2>&
       resolution_(resolution),
       width_(static_cast<std::size_t>(resolution[0])),
       has_paces_(plan.has_paces),
-      key_(math::RandomKey{seed}.derived(kPictureSamples)),
-      offset_key_(math::RandomKey{seed}.derived(kPictureOffset)),
-      cells_key_(math::RandomKey{seed}.derived(kPictureCells)),
+      key_(key_of_seed(seed).derived(RunStream::picture)),
+      offset_key_(key_of_seed(seed).derived(RunStream::picture_offset)),
+      cells_key_(key_of_seed(seed).derived(RunStream::picture_cells)),
       pixels_(width_ * static_cast<std::size_t>(resolution[1])),
       sums_(resolution, plan) {}
 
@@ -51,7 +52,7 @@ void Passes::advance(std::uint64_t) {
     const std::vector<PicturePaces::Part> parts = parts_of_pass();
     std::vector<std::unique_ptr<const estimators::PicturePass>> started(parts.size());
     parallel_for(parts.size(), [&](std::size_t i) {
-        started[i] = estimator_.start({key_.derived(replicate), parts[i].sample, replicate});
+        started[i] = estimator_.start({{key_.derived(replicate)}, parts[i].sample, replicate});
     });
     struct Task {
         const estimators::PixelBlock& block;

@@ -18,14 +18,6 @@
 
 namespace stilb::run {
 
-/// Purposes of a picture's random numbers.
-enum PicturePurpose : std::uint64_t {
-    kPictureSamples = 1,
-    kPictureOffset,
-    kPictureComparison,
-    kPictureCells
-};
-
 /// 95 % of the pixels have a bias of less than about twice the root mean square.
 inline constexpr double kBiasesOfMostPixels = 2;
 

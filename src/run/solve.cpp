@@ -21,6 +21,7 @@
 #include "statistics/interval.h"
 #include "stilb/error.h"
 #include "transport/receiver.h"
+#include "run/streams.h"
 
 namespace stilb::run {
 namespace {
@@ -34,7 +35,6 @@ constexpr std::size_t kWalks = 2;
 constexpr std::uint64_t kFirstCheck = 16;
 constexpr std::uint64_t kStepsAtOnce = 4;
 
-enum SolvePurpose : std::uint64_t { kWalking, kGathering };
 /// Counted steps of the walks before it is known which sides of patches light reaches at all.
 constexpr std::uint64_t kStepsToFindLight = 16;
 
@@ -48,11 +48,11 @@ class Walks final : public Work {
           sources_(transport, groups),
           monitor_(monitor),
           sink_(sink) {
-        const math::RandomKey key{seed};
+        const math::KeyOf key = key_of_seed(seed);
         const std::uint64_t dark = first_steps(transport);
         Stage stage(monitor, "first steps", kWalks * (dark + kStepsToFindLight));
         for (std::size_t w = 0; w < kWalks; ++w)
-            walks_.emplace_back(transport, sources_.sources(), key.derived(kWalking).derived(w));
+            walks_.emplace_back(transport, sources_.sources(), math::KeyOf<estimators::BundleIteration::Stream>{key.derived(RunStream::walks).derived(w)});
         sums_.emplace(transport, estimators::TermLayout(transport, degree, reflecting_sides(transport)),
                       groups.count());
         for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {
@@ -66,7 +66,7 @@ class Walks final : public Work {
         sums_.emplace(sums_->of_sides(sides_with(light)));
         fine_ = patches_near_contacts(transport, light, kMostFinePatches, monitor);
         gather_.emplace(transport, *sums_, kSolutionReplicates, light.is_lit, fine_, groups,
-                        key.derived(kGathering), monitor);
+                        key.derived(RunStream::gathering), monitor);
         if (sink_) sink_->prepare(transport.caster, gather_->solution());
     }
 

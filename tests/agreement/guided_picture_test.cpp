@@ -90,7 +90,7 @@ TEST(GlossyPicture, IsThatOfPathTracing) {
     const estimators::Problem problem{.scene = scene,
                                       .caster = caster,
                                       .max_reflections = transport::kUnlimited,
-                                      .preparation_key = key.derived(0),
+                                      .preparation_key = {key.derived(0)},
                                       .camera = camera()};
     const double factor = coarser(1.63), fewer = factor * factor * kCoarser * kCoarser;
     const auto passes = static_cast<std::uint64_t>(128 / fewer);

@@ -108,7 +108,7 @@ TEST_P(Guided, IsLocalEstimation) {
     const estimators::Problem problem{.scene = scene,
                                       .caster = caster,
                                       .max_reflections = transport::kUnlimited,
-                                      .preparation_key = key.derived(2),
+                                      .preparation_key = {key.derived(2)},
                                       .measurands = measurands};
     const auto guided = measure_exactly(*estimators::make_guided(problem), measurands.size(), key.derived(0),
                                         coarser(of.coarser) * kTargetError);
@@ -149,7 +149,7 @@ class PaleBall : public testing::Test {
     const estimators::Problem problem_{.scene = scene_,
                                        .caster = caster_,
                                        .max_reflections = transport::kUnlimited,
-                                       .preparation_key = key_.derived(2),
+                                       .preparation_key = {key_.derived(2)},
                                        .measurands = points_};
 };
 
@@ -210,7 +210,7 @@ TEST(GuidedReadings, AnEyeAmongPointsOfADeskIsAsExactAsAlone) {
         const estimators::Problem problem{.scene = scene,
                                           .caster = caster,
                                           .max_reflections = transport::kUnlimited,
-                                          .preparation_key = key.derived(2),
+                                          .preparation_key = {key.derived(2)},
                                           .measurands = all};
         constexpr std::uint64_t samples = 256 / static_cast<std::uint64_t>(kCoarser * kCoarser);
         return measure(*estimators::make_guided(problem), all.size(), key.derived(all.size()), samples)[0];

@@ -73,10 +73,10 @@ class Furniture : public testing::Test {
     const Problem problem_{.scene = scene_,
                            .caster = caster_,
                            .max_reflections = transport::kUnlimited,
-                           .preparation_key = key_.derived(0),
+                           .preparation_key = {key_.derived(0)},
                            .measurands = measurands_};
     const std::unique_ptr<GuidedLight> guided_ =
-        GuidedLight::make(problem_, lights_, tracer_, key_.derived(1));
+        GuidedLight::make(problem_, lights_, tracer_, {key_.derived(1)});
 };
 
 TEST_F(Furniture, NothingHidesWhatIsCertain) {

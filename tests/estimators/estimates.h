@@ -43,7 +43,7 @@ struct MeasuredScene {
         return {.scene = scene,
                 .caster = caster,
                 .max_reflections = transport::kUnlimited,
-                .preparation_key = math::RandomKey{1},
+                .preparation_key = {math::RandomKey{1}},
                 .measurands = measurands};
     }
     std::vector<statistics::Estimate> by(Maker make, std::uint64_t samples, std::uint64_t seed = 1) const {

@@ -78,7 +78,7 @@ std::vector<statistics::Estimate> measure(const EstimatorEntry& method, const Sc
                                           const std::vector<Measurand>& rays) {
     constexpr int one_reflection = 1;
     const rays::RayCaster caster(scene);
-    const auto estimator = method.make({scene, caster, one_reflection, math::RandomKey{1}, rays});
+    const auto estimator = method.make({scene, caster, one_reflection, {math::RandomKey{1}}, rays});
     EXPECT_EQ(kSamples % estimator->batch_granularity(), 0u);
     std::vector<double> means;
     for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {

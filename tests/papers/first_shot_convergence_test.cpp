@@ -24,7 +24,7 @@ TEST(FirstShotConvergence, ShownMethodsAreSeenUntilTheirLastStep) {
         {.scene = scene,
          .caster = caster,
          .max_reflections = transport::kUnlimited,
-         .preparation_key = math::RandomKey{1},
+         .preparation_key = {math::RandomKey{1}},
          .camera = Camera{{0.3, 0.3, 1.5}, {2.5, 1.6, 0.7}, {0, 0, 1}, 70, {12, 8}, Projection::perspective}},
         lights);
     estimators::PatchOptions options;

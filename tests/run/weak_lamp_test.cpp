@@ -145,7 +145,7 @@ double missed_lx(const Scene& scene, const MeasuringPoint& at, const char* metho
     estimators::Problem problem{.scene = scene,
                                 .caster = caster,
                                 .max_reflections = max_reflections,
-                                .preparation_key = math::RandomKey{1}};
+                                .preparation_key = {math::RandomKey{1}}};
     problem.measurands = {&measurand, 1};
     const auto estimator = estimators::find_estimator(method).make(problem);
     return PossibleLight(scene, caster, max_reflections, *estimator).missed(measurand, largest_lx, samples);

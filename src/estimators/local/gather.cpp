@@ -160,7 +160,7 @@ class SharedPoint {
 void Gather::collect(const Batch& batch, ReadingSums& sums) const {
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
         monitor_.require_more();
-        const math::RandomKey key = batch.key.derived(tile);
+        const math::RandomKey key = batch.key.key.derived(tile);
         const std::uint64_t light_paths = plans_[tile * kPacketWidth].paths_per_ray;
         for (std::uint64_t i = batch.first / light_paths; i < (batch.first + batch.count) / light_paths;
              ++i) {

@@ -28,17 +28,17 @@ LightPathReception::LightPathReception(const LocalTransport& transport, const Pr
                                        const SubPoints& sub_points)
     : transport_(transport),
       sub_points_(sub_points),
-      plan_{problem.preparation_key.derived(kPlan), 0},
+      plan_{{problem.preparation_key.derived(PreparationStream::picture_plan)}, 0},
       area_m2_(surface_area_m2(transport.scene)),
       paths_(paths_at_once(transport.scene, kPathsPerPass)),
       pilot_paths_(paths_at_once(transport.scene, kPilotPaths)),
       k_per_m2_(sub_points.cells()) {
     if (transport.split != Split::none)
-        pilot_nodes_ = transport.trace_light_paths(problem.preparation_key.derived(kPilot), 0, pilot_paths_);
+        pilot_nodes_ = transport.trace_light_paths(problem.preparation_key.derived(PreparationStream::picture_light_paths), 0, pilot_paths_);
 }
 
 NearNodePool LightPathReception::trace(const Pass& pass) const {
-    return {transport_.trace_light_paths(pass.key.derived(kWalks), pass.index * paths_,
+    return {transport_.trace_light_paths(pass.key.derived(PassStream::light_paths), pass.index * paths_,
                                          (pass.index + 1) * paths_),
             transport_.caster.center()};
 }
@@ -61,14 +61,14 @@ void LightPathReception::receive(const SubPointPacket& packet, const NearNodePoo
     const std::vector<PointTile> tiles =
         tiles_of(packet.receivers, k_per_m2, transport_.caster, transport_.max_reflections,
                  transport::VertexChoice::by_kernel);
-    const double u = math::SampleStream(packet.key(pass, kSelection), pass.index).next();
+    const double u = math::SampleStream(packet.key(pass, PassStream::selection), pass.index).next();
     std::vector<transport::LightVertex> nodes = pool.select(near, near.size() / kPathsPerSelected + 1, u);
     for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / static_cast<double>(paths_);
     Connections(transport_.caster, tiles, transport_.monitor).collect(nodes, sums);
     if (!transport_.gathers) return;
     const std::vector<SplitPlan> plans(packet.receivers.size(), {0, 1});
     Gather(transport_.caster, transport_.tracer, tiles, plans)
-        .collect({packet.key(pass, kGather), pass.index, 1}, sums);
+        .collect({{packet.key(pass, PassStream::gather)}, pass.index, 1}, sums);
 }
 
 double LightPathReception::k_per_m2_of(const Pixel& pixel) const {
@@ -81,7 +81,7 @@ double LightPathReception::k_per_m2_of(const Pixel& pixel) const {
                                kPathsPerSelected};
         return plan_constant(transport_.caster, transport_.tracer, receivers, pilot,
                              std::max<std::uint64_t>(1, paths_ / kPathsPerSelected), kPilotRays,
-                             plan_.key.derived(cell));
+                             plan_.key.key.derived(cell));
     });
 }
 

@@ -23,9 +23,6 @@ class LightPathReception {
                  const Pass& pass, ReadingSums& sums) const;
 
   private:
-    /// Apart from the purposes of pictures that take a part of their light from here.
-    enum Purpose : std::uint64_t { kWalks = 1u << 12, kSelection, kGather, kPilot, kPlan };
-
     void receive(const SubPointPacket& packet, const NearNodePool& pool, const KernelChoice::Sums& near,
                  const Pass& pass, ReadingSums& sums) const;
     /// The k of the cell around a pixel.

@@ -102,7 +102,7 @@ class LocalReadings {
             connections_.collect(connected_vertices(batch.key, first, std::min(end, first + block)), sums);
         }
         add_direct_light(batch, sums);
-        if (transport_.gathers) gather_.collect({batch.key.derived(kGather), batch.first, batch.count}, sums);
+        if (transport_.gathers) gather_.collect({{batch.key.derived(BatchStream::gather)}, batch.first, batch.count}, sums);
         add_faint_branches(batch, sums);
     }
 
@@ -171,14 +171,12 @@ class LocalReadings {
         return selected * paths_per_selected_;
     }
 
-    enum Purpose : std::uint64_t { kLightPaths, kSelection, kDirect, kGather, kPilot, kPlan, kFaint };
-
-    std::vector<transport::LightVertex> connected_vertices(math::RandomKey key, std::uint64_t first,
+    std::vector<transport::LightVertex> connected_vertices(math::KeyOf<BatchStream> key, std::uint64_t first,
                                                            std::uint64_t end) const {
         std::vector<transport::LightVertex> nodes =
-            transport_.trace_light_paths(key.derived(kLightPaths), first, end);
+            transport_.trace_light_paths(key.derived(BatchStream::light_paths), first, end);
         if (paths_per_selected_ == 1) return nodes;
-        const double u = math::SampleStream(key.derived(kSelection).derived(first), 0).next();
+        const double u = math::SampleStream(key.derived(BatchStream::selection).derived(first), 0).next();
         return NodePool(nodes).select(nodes.size() / paths_per_selected_ + 1, u);
     }
 
@@ -232,7 +230,7 @@ class LocalReadings {
     }
 
     void add_direct_light(const Batch& batch, ReadingSums& sums) const {
-        const math::RandomKey key = batch.key.derived(kDirect);
+        const math::RandomKey key = batch.key.derived(BatchStream::direct);
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
             const std::uint64_t light_paths = light_paths_per_direct_sample(t);
@@ -275,7 +273,7 @@ class LocalReadings {
     /// These branches carry so little light that one path for each granule of light paths suffices, or for
     /// some of the samples with a guess.
     void add_faint_branches(const Batch& batch, ReadingSums& sums) const {
-        const math::RandomKey key = batch.key.derived(kFaint);
+        const math::RandomKey key = batch.key.derived(BatchStream::faint);
         constexpr double guided_share = 0.25;
         const std::uint64_t light_paths = batch_granularity();
         const double weight = static_cast<double>(light_paths) / (guided_ ? guided_share : 1);
@@ -307,11 +305,11 @@ class LocalReadings {
             return {std::vector<SplitPlan>(seen_.receivers.size(),
                                            {std::numeric_limits<double>::infinity(), kPathsPerSpecularRay})};
         }
-        const math::RandomKey key = problem.preparation_key;
+        const math::KeyOf key = problem.preparation_key;
         const std::uint64_t pilot_paths = paths_at_once(transport_.scene, kPilotPaths);
         const std::vector<transport::LightVertex> nodes =
-            transport_.trace_light_paths(key.derived(kPilot), 0, pilot_paths);
-        const DirectPilot of_direct = pilot_direct(key.derived(kDirect));
+            transport_.trace_light_paths(key.derived(PreparationStream::light_paths), 0, pilot_paths);
+        const DirectPilot of_direct = pilot_direct(key.derived(PreparationStream::direct));
         const std::vector<double> alike(problem.weights.empty() ? of_direct.direct.size() : 0, 1.0);
         const std::span<const double> weights = problem.weights.empty() ? alike : problem.weights;
         const PilotLight pilot{nodes,
@@ -323,7 +321,7 @@ class LocalReadings {
                                selected_per_ray_,
                                stands_for_};
         SplitPlans plans = plan_splits(transport_.caster, transport_.tracer, seen_.receivers, weights, pilot,
-                                       key.derived(kPlan), problem.monitor);
+                                       key.derived(PreparationStream::plan), problem.monitor);
         paths_per_direct_ = plan_direct(seen_.receivers, seen_.direct.remainders, weights, of_direct, plans,
                                         std::min(kMostPathsPerDirectSample, selected_per_ray_));
         for (SplitPlan& plan : plans.of_receivers) plan.paths_per_ray *= paths_per_selected_;
@@ -382,10 +380,9 @@ struct LocalScene {
     LocalScene(const Problem& problem, Split split) : transport(problem, split) {}
     void make_guide(const Problem& problem) {
         guide = GuidedLight::make(problem, transport.lights, transport.tracer,
-                                  problem.preparation_key.derived(kGuess));
+                                  {problem.preparation_key.derived(PreparationStream::guess)});
     }
 
-    enum Purpose : std::uint64_t { kGuess = 1u << 16 };
     LocalTransport transport;
     std::unique_ptr<const GuidedLight> guide;
 };

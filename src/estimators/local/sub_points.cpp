@@ -6,8 +6,6 @@
 namespace stilb::estimators {
 namespace {
 
-/// The part of a pass's key for direct light; other purposes take other numbers, as of kPixels.
-constexpr std::uint64_t kDirectOfPixels = 1u << 10;
 /// Sobol' dimensions of a sample of direct light.
 constexpr unsigned kDirectDimensions = 8;
 
@@ -51,7 +49,7 @@ void choose_near(const NearNodePool& pool, std::span<const SubPointPacket> packe
     }
 }
 
-math::RandomKey SubPointPacket::key(const Pass& pass, std::uint64_t purpose) const {
+math::RandomKey SubPointPacket::key(const Pass& pass, PassStream purpose) const {
     return pass.key.derived(purpose).derived(static_cast<std::uint64_t>(first.x) << 32 |
                                              static_cast<std::uint64_t>(first.y));
 }
@@ -111,7 +109,7 @@ void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, Readi
         std::vector<math::SampleStream> streams;
         for (const auto& [x, y] : packet.pixels) {
             const std::uint64_t pixel = static_cast<std::uint64_t>(y) * width + static_cast<std::uint64_t>(x);
-            streams.emplace_back(pass.key.derived(kDirectOfPixels).derived(pixel),
+            streams.emplace_back(pass.key.derived(PassStream::direct).derived(pixel),
                                  direct_samples_ * pass.index + sample, kDirectDimensions);
         }
         transport_.direct.add_sample(receivers, remainder, streams, sampled);

@@ -24,7 +24,7 @@ struct SubPointPacket {
     std::vector<Pixel> pixels;                   ///< of each receiver
 
     /// A key of the packet's position and the pass.
-    math::RandomKey key(const Pass& pass, std::uint64_t purpose) const;
+    math::RandomKey key(const Pass& pass, PassStream purpose) const;
 };
 
 /// Calls `receive` for each packet of a block, with the weights of the vertices for it. Packets of one plane

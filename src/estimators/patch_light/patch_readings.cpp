@@ -18,8 +18,6 @@ constexpr double kShare = 1.0 / kRaysPerSample;
 constexpr double kRaysPerPath = 10;
 /// Comparisons of a sample, and samples of a comparison, at most.
 constexpr double kMostComparisons = 64, kMostSamples = 4;
-/// Separate keys; the points have keys of their numbers.
-constexpr std::uint64_t kViews = ~std::uint64_t{0}, kComparisons = kViews - 1, kFaint = kViews - 2;
 
 }  // namespace
 
@@ -94,15 +92,15 @@ Rgb PatchReadings::first_reflected(const View& view) const {
     return luminance;
 }
 
-void PatchReadings::add(const PatchLight& light, math::RandomKey key, std::uint64_t sample,
+void PatchReadings::add(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t sample,
                         ReadingSums& sums) const {
-    const math::RandomKey key_of_views = key.derived(kViews).derived(sample);
+    const math::RandomKey key_of_views = key.derived(Stream::views).derived(sample);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         monitor_.require_more();
         const View& view = views_[i];
         sums.add(view.reading, view.transmission * sampled_luminance(light, view, key_of_views.derived(i)));
     }
-    const math::RandomKey key_of_faint = key.derived(kFaint);
+    const math::RandomKey key_of_faint = key.derived(Stream::faint);
     for (std::size_t i = 0; i < faint_.size(); ++i) {
         const auto& [reading, branch] = faint_[i];
         math::SampleStream stream(key_of_faint.derived(i), sample);
@@ -113,12 +111,12 @@ void PatchReadings::add(const PatchLight& light, math::RandomKey key, std::uint6
     for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
             add_illuminances(light, points,
-                             math::SampleStream(key.derived(first), kRaysPerSample * sample + ray), sums);
+                             math::SampleStream(key.key.derived(first), kRaysPerSample * sample + ray), sums);
         }
     });
     if (sample % samples_per_comparison_ == 0) {
         for (std::uint64_t path = 0; path < comparisons_; ++path) {
-            compare(light, key.derived(kComparisons), comparisons_ * sample + path, sums);
+            compare(light, {key.derived(Stream::comparisons)}, comparisons_ * sample + path, sums);
         }
     }
 }
@@ -132,13 +130,13 @@ void PatchReadings::for_each_packet(const Visit& visit) const {
     }
 }
 
-void PatchReadings::compare(const PatchLight& light, math::RandomKey key, std::uint64_t number,
+void PatchReadings::compare(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t number,
                             ReadingSums& sums) const {
     sums.begin_comparison();
     for (std::size_t i = 0; i < views_.size(); ++i) {
         monitor_.require_more();
         const View& view = views_[i];
-        const math::RandomKey own_key = key.derived(kViews).derived(i);
+        const math::RandomKey own_key = key.derived(Stream::views).derived(i);
         math::SampleStream stream(own_key, number);
         const Rgb traced =
             tracer_.luminance_behind(view.hit, -view.outgoing, {}, transport::kUnlimited, stream);
@@ -146,7 +144,7 @@ void PatchReadings::compare(const PatchLight& light, math::RandomKey key, std::u
         sums.add_lacking(view.reading, view.transmission * (traced + -1 * of_patches));
     }
     for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
-        const math::RandomKey own_key = key.derived(first);
+        const math::RandomKey own_key = key.key.derived(first);
         math::SampleStream directions(own_key, number);
         const auto [u1, u2] = directions.next_two();
         const GatheredRays rays = gather(light, points, u1, u2);

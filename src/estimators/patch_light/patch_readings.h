@@ -46,6 +46,13 @@ class ReflectedSides final : public PatchLight {
 /// Keeps references to the transport and the monitor. Immutable.
 class PatchReadings {
   public:
+    /// Parts of a key of samples.
+    enum class Stream : std::uint64_t {
+        views = ~std::uint64_t{0},
+        comparisons = views - 1,
+        faint = views - 2
+    };
+
     /// `rays_per_sample`: the approximate cost of the light that one sample is taken of.
     PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands,
                   double rays_per_sample, const Monitor& monitor);
@@ -58,7 +65,7 @@ class PatchReadings {
     /// Adds sample number `sample` of every reading, beside the known part. Some samples are compared with
     /// path tracing, which has no patches. Throws Cancelled, with unfinished sums, where the monitor ends the
     /// run.
-    void add(const PatchLight& light, math::RandomKey key, std::uint64_t sample, ReadingSums& sums) const;
+    void add(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t sample, ReadingSums& sums) const;
 
   private:
     /// A sub-point on the patches.
@@ -103,7 +110,7 @@ class PatchReadings {
     template <typename Visit>
     void for_each_packet(const Visit& visit) const;
     /// Compares every reading with path tracing once.
-    void compare(const PatchLight& light, math::RandomKey key, std::uint64_t number, ReadingSums& sums) const;
+    void compare(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t number, ReadingSums& sums) const;
 
     const PatchTransport& transport_;
     const Monitor& monitor_;

@@ -151,7 +151,7 @@ class PathEstimator final : public Estimator {
         constexpr double of_plain = 2, of_general = 8;
         double cost = of_plain;
         for (const transport::LightVertex& vertex : transport::trace_light_paths(
-                 scene_, caster_, paths_.lights, max_reflections_, preparation_key_, 0, light_paths)) {
+                 scene_, caster_, paths_.lights, max_reflections_, preparation_key_.key, 0, light_paths)) {
             const bool is_plain = vertex.material->is<Diffuse>() && vertex.shading_normal == vertex.normal;
             cost += (is_plain ? of_plain : of_general) / static_cast<double>(light_paths);
         }
@@ -212,7 +212,7 @@ class PathEstimator final : public Estimator {
         std::vector<Target> targets;
         for (std::uint64_t n = first; n < end; ++n) {
             const transport::Receiver& point = points_[n / batch.count];
-            math::SampleStream stream(batch.key.derived(point.reading()), batch.first + n % batch.count);
+            math::SampleStream stream(batch.key.key.derived(point.reading()), batch.first + n % batch.count);
             sums.add_direct(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
@@ -242,7 +242,7 @@ class PathEstimator final : public Estimator {
         std::vector<transport::Path> paths;
         for (std::uint64_t n = first; n < end; ++n) {
             const FirstHit& seen = sights_[n / batch.count];
-            const math::SampleStream stream(batch.key.derived(seen.reading), batch.first + n % batch.count);
+            const math::SampleStream stream(batch.key.key.derived(seen.reading), batch.first + n % batch.count);
             paths.push_back({seen.hit, -seen.direction, stream, max_reflections_});
         }
         paths_.tracer.trace(paths, rays::Coherence::coherent);
@@ -255,7 +255,7 @@ class PathEstimator final : public Estimator {
     const rays::RayCaster& caster_;
     const Monitor& monitor_;
     int max_reflections_;
-    math::RandomKey preparation_key_;
+    math::KeyOf<PreparationStream> preparation_key_;
     double stands_for_;
     FlattenedPaths paths_;
     std::vector<transport::Receiver> points_;

@@ -12,7 +12,6 @@ namespace {
 constexpr std::size_t kPixels = 1024;
 constexpr std::size_t kReplicates = 16;
 constexpr std::uint64_t kPathsOfAReplicate = 16;
-enum Purpose : std::uint64_t { kChoice, kPaths = 2 };
 
 /// Pixels in the camera's field, drawn at random.
 std::vector<std::size_t> chosen_pixels(const std::vector<bool>& blind, math::RandomKey key) {
@@ -33,8 +32,8 @@ estimators::Problem without_patches(estimators::Problem problem) {
 }  // namespace
 
 PictureComparison::PictureComparison(const estimators::Problem& problem, const std::vector<bool>& blind,
-                                     math::RandomKey key)
-    : pixels_(chosen_pixels(blind, key.derived(kChoice))), traced_cd_m2_(kReplicates * pixels_.size()) {
+                                     math::KeyOf<Stream> key)
+    : pixels_(chosen_pixels(blind, key.derived(Stream::choice))), traced_cd_m2_(kReplicates * pixels_.size()) {
     const auto paths = estimators::make_path(without_patches(problem));
     const int width = problem.camera->resolution[0];
     Stage stage(problem.monitor, "comparison with path tracing", pixels_.size());
@@ -45,7 +44,7 @@ PictureComparison::PictureComparison(const estimators::Problem& problem, const s
             Rgb sum;
             for (std::uint64_t path = 0; path < kPathsOfAReplicate; ++path) {
                 Rgb luminance;
-                paths->start({key.derived(kPaths).derived(r), path, r})->sample(block, {&luminance, 1});
+                paths->start({{key.derived(Stream::paths).derived(r)}, path, r})->sample(block, {&luminance, 1});
                 sum += luminance;
             }
             traced_cd_m2_[r * pixels_.size() + i] = sum.luminance() / double{kPathsOfAReplicate};

@@ -12,10 +12,13 @@ namespace stilb::run {
 
 class PictureComparison {
   public:
+    /// Parts of its key.
+    enum class Stream : std::uint64_t { choice, paths = 2 };
+
     /// Traces paths through some pixels, some seconds of work at most. `blind`: the pixels outside of the
     /// camera's field.
     PictureComparison(const estimators::Problem& problem, const std::vector<bool>& blind,
-                      math::RandomKey key);
+                      math::KeyOf<Stream> key);
 
     /// A pixel of the picture.
     struct Shown {

@@ -32,7 +32,7 @@ bool are_even(std::span<const transport::Receiver> receivers) {
 }  // namespace
 
 std::unique_ptr<GuidedLight> GuidedLight::make(const Problem& problem, const transport::LightSampler& lights,
-                                               const transport::PathTracer& tracer, math::RandomKey key) {
+                                               const transport::PathTracer& tracer, math::KeyOf<Stream> key) {
     if (problem.max_reflections != transport::kUnlimited || !(surface_area_m2(problem.scene) > 0))
         return nullptr;
     return std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
@@ -40,15 +40,15 @@ std::unique_ptr<GuidedLight> GuidedLight::make(const Problem& problem, const tra
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
                          const transport::LightSampler& lights, const transport::PathTracer& tracer,
-                         math::RandomKey key, const Monitor& monitor)
+                         math::KeyOf<Stream> key, const Monitor& monitor)
     : caster(all),
       finds_all_by_rays(!has_light_for_light_paths_only(scene)),
-      dark_key(key.derived(kDark)),
+      dark_key(key.derived(Stream::dark)),
       samples_together(std::max<std::uint64_t>(
           1, paths_at_once(scene, kSamplesTogether * kPathsPerSample) / kPathsPerSample)),
       direct(scene, all, lights),
-      guess(scene, all, direct, tracer, key.derived(kGuess), monitor),
-      residual(scene, all, lights, direct, tracer, guess, key.derived(kPilot), monitor),
+      guess(scene, all, direct, tracer, {key.derived(Stream::guess)}, monitor),
+      residual(scene, all, lights, direct, tracer, guess, key.derived(Stream::pilot), monitor),
       points(guess, all, residual.area_m2()),
       gather(all, tracer, guess, residual),
       sides(scene, guess, all) {}
@@ -225,7 +225,7 @@ double GuidedReadings::cost_per_sample(double stands_for) const {
 void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const {
     for (std::size_t t = 0; t < general_tiles_.size(); ++t) {
         monitor_.require_more();
-        const math::RandomKey key = batch.key.derived(kGeneral).derived(t);
+        const math::RandomKey key = batch.key.derived(BatchStream::general_rays).derived(t);
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
             light_.gather.add_general_round(general_tiles_[t], key, i, sums);
         sums.rays += batch.count * general_tiles_[t].receivers.size();
@@ -236,7 +236,7 @@ void GuidedReadings::gather_dark(const Batch& batch, ReadingSums& sums) const {
     for (std::size_t j = lit_; j < even_.size(); ++j) {
         monitor_.require_more();
         const Batch own = batch.of_packet(j / kPacketWidth);
-        const math::RandomKey key = batch.key.derived(kDark).derived(j);
+        const math::RandomKey key = batch.key.derived(BatchStream::dark).derived(j);
         for (std::uint64_t i = own.first; i < own.first + own.count; ++i)
             sums.add(even_[j].reading(), light_.gather.traced(even_[j], math::SampleStream(key, i, 2)));
         sums.rays += own.count;
@@ -250,16 +250,16 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
         const PointTile& tile = tiles_[t];
         const Batch own = batch.of_packet(t);
         if (own.count == 0) continue;
-        const auto random = math::SampleStream(batch.key.derived(kShift), t, 0).next_two();
+        const auto random = math::SampleStream(batch.key.derived(BatchStream::shift), t, 0).next_two();
         std::array<std::array<double, 2>, kPacketWidth> shifts;
         for (std::size_t i = 0; i < kPacketWidth; ++i) shifts[i] = gather_shift(random, i);
         const GatherLanes lanes(tile, shifts);
-        const auto points = gather_points(batch.key.derived(kGather), own.first, own.count);
+        const auto points = gather_points(batch.key.derived(BatchStream::guess_rays), own.first, own.count);
         const Sources& sources = sources_[group];
         GuessGather::Sums tile_sums;
         std::vector<EmittingPoint> connected;
         for (std::uint64_t i = 0; i < own.count; ++i) {
-            light_.gather.add_round(tile, lanes, points[i], batch.key.derived(kPaths).derived(t),
+            light_.gather.add_round(tile, lanes, points[i], batch.key.derived(BatchStream::continued_rays).derived(t),
                                     own.first + i, {sources.sights, sources.points.split}, tile_sums);
             light_.points.select(sources.points,
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
@@ -276,13 +276,13 @@ void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) con
     for (std::uint64_t first = batch.first; first < end; first += light_.samples_together) {
         const std::uint64_t last = std::min(end, first + light_.samples_together);
         std::vector<transport::LightVertex> nodes = light_.residual.trace(
-            batch.key.derived(kResidual), first * kPathsPerSample, last * kPathsPerSample);
+            {batch.key.derived(BatchStream::residual)}, first * kPathsPerSample, last * kPathsPerSample);
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);
         const NearNodePool pool(nodes, light_.caster.center());
-        const math::RandomKey key = batch.key.derived(kSelection).derived(first);
+        const math::RandomKey key = batch.key.derived(BatchStream::residual_selection).derived(first);
         const std::uint64_t part = last - first;
-        connect(pool, tiles_, groups_, {key.derived(0), first, part, batch.paces}, sums);
-        connect(pool, general_tiles_, general_groups_, {key.derived(1), first, part}, sums);
+        connect(pool, tiles_, groups_, {{key.derived(0)}, first, part, batch.paces}, sums);
+        connect(pool, general_tiles_, general_groups_, {{key.derived(1)}, first, part}, sums);
     }
 }
 
@@ -295,7 +295,7 @@ void GuidedReadings::connect(const NearNodePool& pool, std::span<const PointTile
             if (taken == 0) continue;
             if (!near) near = pool.sums_for(group.spread, light_.k_per_m2(kPoints));
             std::vector<transport::LightVertex> nodes =
-                pool.select(*near, kVerticesPerSample * taken, math::SampleStream(batch.key, t, 0).next());
+                pool.select(*near, kVerticesPerSample * taken, math::SampleStream(batch.key.key, t, 0).next());
             const double share = static_cast<double>(taken) / static_cast<double>(batch.count);
             for (transport::LightVertex& node : nodes) node.flux_lm *= share;
             Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);

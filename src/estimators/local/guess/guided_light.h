@@ -24,12 +24,15 @@ namespace stilb::estimators {
 
 /// The common part of readings and pictures. Keeps references to its arguments. Immutable.
 struct GuidedLight {
+    /// Parts of its key.
+    enum class Stream : std::uint64_t { guess, pilot, dark };
+
     /// The guided light of a problem; null where reflections have a limit, or there are none.
     static std::unique_ptr<GuidedLight> make(const Problem& problem, const transport::LightSampler& lights,
-                                             const transport::PathTracer& tracer, math::RandomKey key);
+                                             const transport::PathTracer& tracer, math::KeyOf<Stream> key);
 
     GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
-                const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor);
+                const transport::PathTracer& tracer, math::KeyOf<Stream> key, const Monitor& monitor);
 
     /// Of connections to the residual, where so many points of the guess are connected at once.
     double k_per_m2(std::size_t points_at_once) const { return points.residual_k_per_m2(points_at_once); }
@@ -50,7 +53,6 @@ struct GuidedLight {
     /// into the dark. None where they are many: then they are what is measured.
     std::size_t put_dark_last(std::vector<transport::Receiver>& receivers, const Monitor& monitor) const;
 
-    enum Purpose : std::uint64_t { kGuess, kPilot, kDark };
     const rays::RayCaster& caster;
     bool finds_all_by_rays;          ///< no light is found by light paths alone
     math::RandomKey dark_key;        ///< of the search for dark receivers
@@ -91,7 +93,6 @@ class GuidedReadings {
     double cost_per_sample(double stands_for) const;
 
   private:
-    enum Purpose : std::uint64_t { kResidual, kSelection, kGather, kShift, kPaths, kGeneral, kDark };
     /// Tiles first ... last - 1, which lie so close together that the same is near to all of them.
     struct Group {
         std::size_t first = 0, last = 0;

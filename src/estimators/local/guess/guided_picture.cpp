@@ -52,7 +52,7 @@ class GuidedPicture final : public LocalPicture {
           guide_(guide),
           sub_points_(transport, problem, kDirectSamples),
           reception_(transport, problem, sub_points_),
-          plan_{problem.preparation_key.derived(kPlan), 0},
+          plan_{{problem.preparation_key.derived(PreparationStream::guided_picture)}, 0},
           points_of_(sub_points_.cells()) {}
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
@@ -60,24 +60,14 @@ class GuidedPicture final : public LocalPicture {
     }
 
   private:
-    enum Purpose : std::uint64_t {
-        kResidual = kPixels + 1,
-        kSelection,
-        kVertex,
-        kGather,
-        kPaths,
-        kShift,
-        kPlan
-    };
-
     class GuidedPass final : public PicturePass {
       public:
         GuidedPass(const GuidedPicture& picture, const Pass& pass)
             : picture_(picture),
               pass_(pass),
               pool_(picture.trace_residual(pass), picture.guide_.caster.center()),
-              selection_point_(math::SampleStream(pass.key.derived(kSelection), pass.index, 4).next_two()),
-              gather_points_(gather_points(pass.key.derived(kGather), kRays * pass.index, kRays)) {}
+              selection_point_(math::SampleStream(pass.key.derived(PassStream::guess_points), pass.index, 4).next_two()),
+              gather_points_(gather_points(pass.key.derived(PassStream::guess_rays), kRays * pass.index, kRays)) {}
 
         Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
             ReadingSums sums(pixels.size());
@@ -103,7 +93,7 @@ class GuidedPicture final : public LocalPicture {
         void receive(const SubPointPacket& packet, const KernelChoice::Sums& near, ReadingSums& sums) const {
             const GuidedLight& guide = picture_.guide_;
             const std::vector<PointTile> tiles = guide.tiles(packet.receivers, kPoints);
-            const double u = math::SampleStream(packet.key(pass_, kVertex), pass_.index).next();
+            const double u = math::SampleStream(packet.key(pass_, PassStream::residual_selection), pass_.index).next();
             Connections(guide.caster, tiles, picture_.transport_.monitor)
                 .collect(pool_.select(near, kVertices, u), sums);
             gather(packet, tiles, sums);
@@ -128,7 +118,7 @@ class GuidedPicture final : public LocalPicture {
                 const GatherLanes lanes(tile, shifts);
                 GuessGather::Sums gathered;
                 for (std::uint64_t i = 0; i < kRays; ++i)
-                    guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, kPaths),
+                    guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, PassStream::continued_rays),
                                            kRays * pass_.index + i, {{}, guide.points.split()}, gathered);
                 GuessGather::flush(tile, gathered, 1. / kRays, sums);
             }
@@ -182,7 +172,7 @@ class GuidedPicture final : public LocalPicture {
         const std::uint64_t paths = paths_at_once(
             transport_.scene, std::clamp<std::uint64_t>(pixels / kPixelsPerPath, 16, kMostPaths));
         std::vector<transport::LightVertex> nodes =
-            guide_.residual.trace(pass.key.derived(kResidual), pass.index * paths, (pass.index + 1) * paths);
+            guide_.residual.trace({pass.key.derived(PassStream::residual)}, pass.index * paths, (pass.index + 1) * paths);
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(paths);
         return nodes;
     }
@@ -191,7 +181,7 @@ class GuidedPicture final : public LocalPicture {
     static std::array<double, 2> shift_of(const Pixel& pixel, const Pass& pass) {
         const auto block = static_cast<std::uint64_t>(pixel.x / kPacketSide) << 32 |
                            static_cast<std::uint64_t>(pixel.y / kPacketSide);
-        const auto random = math::SampleStream(pass.key.derived(kShift), block, 0).next_two();
+        const auto random = math::SampleStream(pass.key.derived(PassStream::shift), block, 0).next_two();
         const auto row = static_cast<std::size_t>(pixel.y % kPacketSide),
                    column = static_cast<std::size_t>(pixel.x % kPacketSide);
         return gather_shift(random, row * kPacketSide + column);

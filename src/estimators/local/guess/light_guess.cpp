@@ -82,10 +82,8 @@ struct LightGuess::Solver {
     const rays::RayCaster& caster;
     const BoundedDirect& direct;
     const transport::PathTracer& tracer;
-    math::RandomKey key;
+    math::KeyOf<Stream> key;
     const Monitor& monitor;
-
-    enum Purpose : std::uint64_t { kSurvey, kSolution };
 
     /// What the rays of some sides have met.
     struct Rows {
@@ -95,7 +93,7 @@ struct LightGuess::Solver {
         std::vector<Rgb> source_lx;       ///< direct light, and light by mirrors and glass
     };
 
-    Rows cast(std::vector<std::uint32_t> sides, std::uint64_t packets, Purpose purpose) const {
+    Rows cast(std::vector<std::uint32_t> sides, std::uint64_t packets, Stream purpose) const {
         Rows rows{std::move(sides), packets * kPacketWidth, {}, {}};
         rows.seen.resize(rows.sides.size() * rows.width, patches::kNoSide);
         rows.source_lx.resize(rows.sides.size());
@@ -112,7 +110,7 @@ struct LightGuess::Solver {
     }
 
     void cast_packet(Rows& rows, std::size_t row, std::uint64_t number, std::uint64_t packets,
-                     Purpose purpose) const {
+                     Stream purpose) const {
         const patches::Patches& patches = guess.patches();
         const std::uint32_t side = rows.sides[row];
         math::SampleStream stream(key.derived(purpose).derived(side), number, 4);
@@ -216,7 +214,7 @@ struct LightGuess::Solver {
 };
 
 LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
-                       const transport::PathTracer& tracer, math::RandomKey key, const Monitor& monitor)
+                       const transport::PathTracer& tracer, math::KeyOf<Stream> key, const Monitor& monitor)
     : materials_(split_materials(scene)),
       is_traced_material_(traced_materials(scene)),
       is_traced_object_(traced_objects(scene)),
@@ -231,10 +229,10 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
             sides.insert(sides.end(), {p, patches().other_side(p)});
     }
     const Solver solver{*this, caster, direct, tracer, key, monitor};
-    lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Solver::kSurvey));
+    lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Stream::survey));
     std::ranges::sort(lit_sides_);
     shared_.set_lit(lit_sides_);
-    interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Solver::kSolution)));
+    interpolate(solver.solve(solver.cast(lit_sides_, kSidePackets, Stream::solution)));
     for (const std::uint32_t side : lit_sides_)
         lit_area_m2_ += double{patches().areas_m2[patches().patch_of(side)]};
 }

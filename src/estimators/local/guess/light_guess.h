@@ -48,11 +48,14 @@ struct GuessedLight {
 /// Keeps references to its arguments. Immutable.
 class LightGuess {
   public:
+    /// Parts of its key.
+    enum class Stream : std::uint64_t { survey, solution };
+
     /// The number of patches for a scene, about.
     static double patch_count(const Scene& scene);
 
     LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
-               const transport::PathTracer& tracer, math::RandomKey key,
+               const transport::PathTracer& tracer, math::KeyOf<Stream> key,
                const Monitor& monitor = Monitor::none());
 
     const patches::Patches& patches() const { return patches_.patches(); }

@@ -214,17 +214,16 @@ auto ResidualLight::look_around(const SidePoint& point, math::SampleStream& stre
     return {patches::kNoSide, {}, all + light.luminance_of(0) * -1};
 }
 
-std::vector<transport::LightVertex> ResidualLight::trace(math::RandomKey key, std::uint64_t first,
+std::vector<transport::LightVertex> ResidualLight::trace(math::KeyOf<Stream> key, std::uint64_t first,
                                                          std::uint64_t end) const {
-    enum Purpose : std::uint64_t { kLightPaths = 1, kParticles };
     std::vector<transport::LightVertex> nodes;
     if (!sides_.empty()) {
         for (std::uint64_t path = first; path < end; ++path)
-            trace_one(math::SampleStream(key, path, 8), nodes);
+            trace_one(math::SampleStream(key.key, path, 8), nodes);
     }
     for (std::uint64_t path = first; direct_.has_particles() && path < end; ++path)
-        trace_particle(math::SampleStream(key.derived(kParticles), path, 8), nodes);
-    if (has_light_for_light_paths_only_) trace_light_paths_only(key.derived(kLightPaths), first, end, nodes);
+        trace_particle(math::SampleStream(key.derived(Stream::particles), path, 8), nodes);
+    if (has_light_for_light_paths_only_) trace_light_paths_only(key.derived(Stream::light_paths), first, end, nodes);
     return nodes;
 }
 

@@ -24,6 +24,9 @@ namespace stilb::estimators {
 /// Keeps references to its arguments. Immutable.
 class ResidualLight {
   public:
+    /// Parts of the keys of its paths.
+    enum class Stream : std::uint64_t { light_paths = 1, particles = 2 };
+
     /// `key`: for the pilot that finds where r is large.
     ResidualLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
                   const BoundedDirect& direct, const transport::PathTracer& tracer, const LightGuess& guess,
@@ -31,7 +34,7 @@ class ResidualLight {
 
     /// The vertices of paths number `first` ... `end` - 1 of the streams of a key, for a sum over the paths:
     /// the expectation of each path's sum is the whole residual.
-    std::vector<transport::LightVertex> trace(math::RandomKey key, std::uint64_t first,
+    std::vector<transport::LightVertex> trace(math::KeyOf<Stream> key, std::uint64_t first,
                                               std::uint64_t end) const;
 
     /// An estimate of the luminance that the guess lacks at a point of a side whose material is diffuse, all

@@ -93,8 +93,6 @@ constexpr std::uint64_t kParticlesPerEvaluation = 64;
 constexpr std::uint64_t kLeastParticles = 4096;
 constexpr double kRaysPerParticle = 5;
 
-enum Purpose : std::uint64_t { kWalks = kPixels + 1, kEvaluations };
-
 /// All lights emit particles.
 PatchTransport particle_transport(const Problem& problem) {
     require_diffuse(problem.scene, kParticles);
@@ -116,13 +114,13 @@ class Particles final : public Estimator {
     std::string_view technique() const override { return kParticles; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
         IlluminationMap map(transport_);
-        map.add(batch.key.derived(kWalks), batch.first, batch.count);
+        map.add(batch.key.derived(BatchStream::particles), batch.first, batch.count);
         const ReflectedSides light(map.reflected_cd_m2());
         const std::uint64_t first = batch.first / kParticlesPerEvaluation,
                             evaluations = batch.count / kParticlesPerEvaluation;
         ReadingSums seen(sums.sum.size());
         for (std::uint64_t i = first; i < first + evaluations; ++i) {
-            readings_.add(light, batch.key.derived(kEvaluations), i, seen);
+            readings_.add(light, {batch.key.derived(BatchStream::evaluations)}, i, seen);
         }
         for (std::size_t j = 0; j < seen.sum.size(); ++j)
             sums.add(j, seen.sum[j] * double{kParticlesPerEvaluation});
@@ -141,7 +139,7 @@ class Particles final : public Estimator {
     }
 
     std::unique_ptr<const PicturePass> start(const Pass& pass) const override {
-        const math::RandomKey key = pass.key.derived(kWalks);
+        const math::RandomKey key = pass.key.derived(PassStream::particles);
         std::array<std::vector<FloatRgb>, kMaps> maps;
         parallel_for(kMaps, [&](std::uint64_t i) {
             IlluminationMap map(transport_);

@@ -18,7 +18,6 @@ constexpr unsigned kDimensions = 12;
 /// The low-discrepancy sequence is used in a random order within blocks of this many points: consecutive
 /// steps must be independent of each other, or their product would be biased.
 constexpr std::uint64_t kShuffled = 256;
-enum BundlePurpose : std::uint64_t { kPoints, kOrder };
 
 /// Uniform among all rotations [Shoemake 1992].
 Frame random_frame(double u1, double u2, double u3) {
@@ -65,12 +64,12 @@ double weight_of(BundleDirections directions) {
 
 }  // namespace
 
-BundleIteration::BundleIteration(const PatchTransport& transport, math::RandomKey key)
+BundleIteration::BundleIteration(const PatchTransport& transport, math::KeyOf<Stream> key)
     : BundleIteration(transport,
                       {{transport.first_reflection, transport.emission, &transport.first_shot, true}}, key) {}
 
 BundleIteration::BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources,
-                                 math::RandomKey key)
+                                 math::KeyOf<Stream> key)
     : transport_(transport),
       sources_(std::move(sources)),
       key_(key),
@@ -83,7 +82,7 @@ BundleIteration::BundleIteration(const PatchTransport& transport, std::vector<Bu
       glossy_receiving_(glossy_received_.size()) {}
 
 void BundleIteration::step() {
-    math::SampleStream stream(key_.derived(kPoints), shuffled(steps_++, key_.derived(kOrder)), kDimensions);
+    math::SampleStream stream(key_.derived(Stream::points), shuffled(steps_++, key_.derived(Stream::order)), kDimensions);
     const auto [u1, u2] = stream.next_two();
     const Frame frame = random_frame(u1, u2, stream.next());
     std::ranges::fill(receiving_, FloatRgb{});

@@ -39,10 +39,13 @@ struct BundleSource {
 /// One walk of the iteration. Keeps references to the arguments except the key. One thread at a time.
 class BundleIteration final : public PatchLight {
   public:
+    /// Parts of its key.
+    enum class Stream : std::uint64_t { points, order };
+
     /// Starts from darkness. The steps depend on the key alone. All light together:
-    BundleIteration(const PatchTransport& transport, math::RandomKey key);
+    BundleIteration(const PatchTransport& transport, math::KeyOf<Stream> key);
     /// Each source apart, along the same rays. More than one needs light that is stored (or no first shot).
-    BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources, math::RandomKey key);
+    BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources, math::KeyOf<Stream> key);
 
     void step();
 
@@ -78,7 +81,7 @@ class BundleIteration final : public PatchLight {
 
     const PatchTransport& transport_;
     std::vector<BundleSource> sources_;
-    math::RandomKey key_;
+    math::KeyOf<Stream> key_;
     std::size_t axes_;
     double weight_;  ///< of each axis
     std::uint64_t steps_ = 0;

@@ -17,9 +17,6 @@ namespace {
 
 constexpr std::string_view kRayBundle = "ray-bundle";
 
-enum ReadingPurpose : std::uint64_t { kWalk, kReadings };
-enum PicturePurpose : std::uint64_t { kWalkOfPass = kPixels + 1 };
-
 PatchTransport bundle_transport(const Problem& problem) {
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
     require_all_reflections(problem.max_reflections, kRayBundle);
@@ -44,7 +41,7 @@ class RayBundle final : public Estimator {
 
     std::string_view technique() const override { return kRayBundle; }
     void run_batch(const Batch& batch, ReadingSums& sums) const override {
-        BundleIteration iteration(transport_, batch.key.derived(kWalk).derived(batch.first));
+        BundleIteration iteration(transport_, {batch.key.derived(BatchStream::walk).derived(batch.first)});
         const auto step = [&] {
             monitor_.require_more();
             iteration.step();
@@ -52,7 +49,7 @@ class RayBundle final : public Estimator {
         for (std::uint64_t i = 0; i < first_steps(transport_); ++i) step();
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
             step();
-            readings_.add(iteration, batch.key.derived(kReadings), i, sums);
+            readings_.add(iteration, {batch.key.derived(BatchStream::patch_readings)}, i, sums);
         }
         sums.rays += iteration.rays();
     }
@@ -83,11 +80,11 @@ class RayBundle final : public Estimator {
 
     std::vector<FloatRgb> mean_of_walks(const Pass& pass) const {
         const std::uint64_t first = first_steps(transport_), steps = std::max(first, kLeastSteps);
-        const math::RandomKey key = pass.key.derived(kWalkOfPass).derived(pass.index);
+        const math::RandomKey key = pass.key.derived(PassStream::walk).derived(pass.index);
         std::array<std::vector<FloatRgb>, kWalks> sums;
         parallel_for(kWalks, [&](std::uint64_t walk) {
             sums[walk].resize(seen_->count());
-            BundleIteration iteration(transport_, key.derived(walk));
+            BundleIteration iteration(transport_, {key.derived(walk)});
             for (std::uint64_t i = 0; i < first; ++i) iteration.step();
             for (std::uint64_t i = 0; i < steps; ++i) {
                 iteration.step();
