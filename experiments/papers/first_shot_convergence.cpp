@@ -59,7 +59,7 @@ std::vector<estimators::FloatRgb> reference_of(const estimators::PatchTransport&
     std::array<std::vector<estimators::FloatRgb>, kReferenceWalks> sums;
     parallel_for(kReferenceWalks, [&](std::uint64_t walk) {
         sums[walk].resize(seen.count());
-        estimators::BundleIteration iteration(transport, math::RandomKey{kReference}.derived(walk));
+        estimators::BundleIteration iteration(transport, {math::RandomKey{kReference}.derived(walk)});
         for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
         for (int step = 0; step < steps; ++step) {
             iteration.step();
@@ -101,7 +101,7 @@ std::vector<ConvergenceCurve> converge(const estimators::PictureTracing& tracing
         ConvergenceCurve curve{method.name, {}};
         const estimators::PatchTransport transport(tracing.scene, tracing.caster, method.options);
         const run::Clock clock;
-        estimators::BundleIteration iteration(transport, math::RandomKey{kWalk});
+        estimators::BundleIteration iteration(transport, {math::RandomKey{kWalk}});
         const estimators::VisibleSides seen(transport, eye);
         std::vector<estimators::FloatRgb> sums(seen.count()), not_stored(seen.count());
         add_not_stored(transport, eye, not_stored);

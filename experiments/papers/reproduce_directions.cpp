@@ -42,7 +42,7 @@ struct WalkSums {
 
 /// One walk's sums after 1, 2, 4 ... steps that count.
 std::vector<WalkSums> walk(const estimators::PatchTransport& transport, math::RandomKey key) {
-    estimators::BundleIteration iteration(transport, key);
+    estimators::BundleIteration iteration(transport, {key});
     for (std::uint64_t i = 0; i < first_steps(transport); ++i) iteration.step();
     const auto first_rays = static_cast<double>(iteration.rays());
     WalkSums now{std::vector<double>(transport.patches.count()), 0};
