@@ -103,7 +103,7 @@ void compare(const Scene& scene) {
     std::uint64_t traced = 0;
     constexpr int repetitions = 15;  // in turn, so that a change of the machine's speed meets both
     for (int repetition = 0; repetition < repetitions; ++repetition) {
-        estimators::ReadingSums sums(points.size());
+        estimators::Tally sums(points.size());
         double start = now_s();
         connections.collect(nodes, sums);
         best_connections_s = std::min(best_connections_s, now_s() - start);

@@ -142,11 +142,12 @@ void compare_counts(std::string_view method, int max_reflections) {
         const Scene scene = hall(count);
         double start = processor_s();
         const rays::RayCaster caster(scene);
-        const auto estimator = estimators::find_estimator(method).make({.scene = scene,
-                                                                        .caster = caster,
-                                                                        .max_reflections = max_reflections,
-                                                                        .preparation_key = {math::RandomKey{5}},
-                                                                        .camera = camera()});
+        const auto estimator =
+            estimators::find_estimator(method).make({.scene = scene,
+                                                     .caster = caster,
+                                                     .max_reflections = max_reflections,
+                                                     .preparation_key = {math::RandomKey{5}},
+                                                     .camera = camera()});
         const double setup_s = processor_s() - start;
         const Measure measure = picture_with(*estimator, camera().resolution);
         const Efficiency e = efficiency_of(measure, 1);

@@ -25,7 +25,7 @@ double processor_s() { return static_cast<double>(std::clock()) / CLOCKS_PER_SEC
 
 Measure readings_with(const estimators::Estimator& estimator, math::RandomKey key) {
     return [&estimator, key](std::uint64_t round, std::uint64_t samples) {
-        estimators::ReadingSums sums(estimator.known_part().size());
+        estimators::Tally sums(estimator.known_part().size());
         estimator.run_batch({key.derived(round), 0, samples}, sums);
         std::vector<double> values;
         for (std::size_t j = 0; j < sums.sum.size(); ++j) {

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "base/version.h"
 #include "cli/progress.h"
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
@@ -35,7 +36,7 @@ io::Picture picture_of(const RenderedHead& head, const std::string& name) {
     origin.sensor = head.view.name;
     origin.method = first.method;
     origin.command = "stilb reproduce harmonics";
-    origin.version = STILB_VERSION;
+    origin.version = program_version();
     io::Picture mean = io::picture_of(first, *head.view.camera(), origin);
     const auto rounds = static_cast<float>(head.rounds.size());
     for (std::size_t i = 0; i < mean.pixel_count(); ++i) {

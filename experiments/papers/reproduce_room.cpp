@@ -2,6 +2,7 @@
 //
 // By `auto`, which is local estimation where that is good: by itself, as in the paper, it speckles the
 // surfaces next to corners (docs/methods/local.md).
+#include "base/version.h"
 #include "cli/progress.h"
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
@@ -16,7 +17,7 @@ void reproduce_room(const std::filesystem::path& directory) {
     io::PictureOrigin origin;
     origin.scene = "scenes/paper/room.toml";
     origin.command = "stilb reproduce room";
-    origin.version = STILB_VERSION;
+    origin.version = program_version();
     const io::SceneFile file = io::read_scene(kPaperRoom, origin.scene, {});
     const Sensor& view = file.sensors.front();
     origin.sensor = view.name;

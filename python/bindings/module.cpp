@@ -1,13 +1,14 @@
 // The extension module stilb._stilb: the C++ library for the Python package, which has the documented names.
 #include <nanobind/nanobind.h>
 
+#include "base/version.h"
 #include "bindings/parts.h"
 #include "stilb/error.h"
 
 namespace nb = nanobind;
 
 NB_MODULE(_stilb, module) {
-    module.attr("version") = STILB_VERSION;
+    module.attr("version") = program_version();
     nb::exception<stilb::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
         "An error in the input. The message says what is wrong, where, and what would be right.";
     nb::exception<stilb::Cancelled>(module, "Cancelled", PyExc_RuntimeError).attr("__doc__") =

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "api/scene_data.h"
+#include "base/version.h"
 #include "io/image/picture_file.h"
 #include "io/results/results_writer.h"
 #include "io/results/solution_file.h"
@@ -187,7 +188,7 @@ Picture to_picture(const RenderResult& rendered, const Scene& scene, const Senso
     origin.sensor = camera.name;
     origin.method = rendered.method;
     origin.seed = rendered.seed;
-    origin.version = STILB_VERSION;
+    origin.version = program_version();
     Picture picture;
     static_cast<Summary&>(picture) = summary(rendered, scene.data().file.warnings);
     picture.data = std::make_shared<const Picture::Data>(

@@ -8,6 +8,7 @@
 #include <optional>
 
 #include "checks/checks.h"
+#include "checks/streams.h"
 #include "checks/walks.h"
 #include "sensors/place.h"
 
@@ -26,7 +27,6 @@ constexpr double kHiding_m = 0.02;
 constexpr std::size_t kPointsTested = 64, kLightRays = 64, kMostSensorsTested = 256;
 /// The share of a sensor's points that have to be turned: some may lie under things.
 constexpr double kMostPoints = 0.9;
-enum FacingPurpose : std::uint64_t { kLampFronts, kLightOrigins };
 
 /// "1.2 cm", "3 mm".
 std::string short_distance(double distance_m) {
@@ -64,7 +64,7 @@ std::optional<Facing> faced_by(const Light& light, const Scene& scene, const ray
     Facing facing{{}, gap->depth_m};
     int escaped = 0;
     for (std::uint64_t i = 0; i < kLampRays; ++i) {
-        math::SampleStream stream(math::RandomKey{}.derived(kLampFronts), i);
+        math::SampleStream stream(kCheckKey.derived(CheckStream::lamp_fronts), i);
         const lights::Emission ray = std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
         const auto hit = caster.closest(ray.origin, ray.direction);
         const double distance_m = hit ? hit->distance_m : std::numeric_limits<double>::infinity();
@@ -134,7 +134,7 @@ std::vector<Location> lamp_points(const Scene& scene, const rays::RayCaster& cas
     std::vector<Location> points;
     const std::size_t count = std::min<std::size_t>(kLightRays, 4 * scene.lights.size());
     for (std::size_t i = 0; i < count; ++i) {
-        math::SampleStream stream(math::RandomKey{}.derived(kLightOrigins), i);
+        math::SampleStream stream(kCheckKey.derived(CheckStream::light_origins), i);
         const Light& light = scene.lights[i * scene.lights.size() / count];
         const auto emitter = lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift());
         const lights::Emission ray = std::visit([&](const auto& own) { return own.emit(stream); }, emitter);

@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "checks/checks.h"
+#include "checks/streams.h"
 #include "checks/walks.h"
 #include "math/sampling.h"
 #include "sensors/place.h"
@@ -24,7 +25,6 @@ constexpr std::size_t kConnections = 8;
 /// Connections that are tried for all lights, and for all sensors: less than a tenth of a second each. What
 /// is not judged by then is not named.
 constexpr std::size_t kMostConnections = 400'000;
-enum ReachPurpose : std::uint64_t { kFromSensors, kFromLights, kOfPairs };
 
 /// The places around one sensor from which it receives light.
 struct Surroundings {
@@ -69,7 +69,7 @@ Surroundings surroundings_of(const Sensor& sensor, std::size_t starts, const Sce
     Surroundings around{sensor.name, Trail(scene), {}};
     if (camera) around.first = camera->position;
     for (std::size_t i = 0; i < starts; ++i) {
-        math::SampleStream stream(math::RandomKey{}.derived(kFromSensors), i);
+        math::SampleStream stream(kCheckKey.derived(CheckStream::from_sensors), i);
         const auto start = camera ? start_of(*camera, stream)
                                   : start_of(sensor.measurand(i * sensor.size() / starts), caster, stream);
         if (!start) continue;
@@ -119,7 +119,7 @@ std::vector<std::string> lost_light_warnings(const Scene& scene, const rays::Ray
         Shining shining(light, scene, caster);
         if (shining.is_outside) continue;
         for (std::uint64_t i = 0; i < particles && meets_nothing(shining.trail); ++i) {
-            math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
+            math::SampleStream stream(kCheckKey.derived(CheckStream::from_lights), i);
             const lights::Emission particle = shining.emit(stream);
             follow_walk(scene, caster, {particle.origin, particle.direction}, particle.direction, 0, stream,
                         shining.trail);
@@ -208,7 +208,7 @@ class ReachCheck {
     std::optional<bool> reaches_a_sensor(Shining& shining) {
         if (shining.is_met_by(all_places_)) return true;
         for (std::uint64_t i = 0; i < kMostParticles; ++i) {
-            math::SampleStream stream(math::RandomKey{}.derived(kFromLights), i);
+            math::SampleStream stream(kCheckKey.derived(CheckStream::from_lights), i);
             const lights::Emission particle = shining.emit(stream);
             const std::size_t known = shining.trail.locations.size();
             if (is_lit_directly(all_places_.locations, shining)) return true;
@@ -225,7 +225,7 @@ class ReachCheck {
     /// Whether a sample of the light itself, not of a reflection, gets to one of some places.
     bool is_lit_directly(const std::vector<Location>& places, const Shining& shining) {
         for (std::size_t k = 0; k < std::min(kConnections, places.size()); ++k) {
-            math::SampleStream stream(math::RandomKey{}.derived(kOfPairs), connections_++);
+            math::SampleStream stream(kCheckKey.derived(CheckStream::pairs), connections_++);
             const Location& place =
                 places[static_cast<std::size_t>(stream.next() * static_cast<double>(places.size()))];
             const auto [u1, u2] = stream.next_two();
@@ -239,7 +239,7 @@ class ReachCheck {
 
     bool is_connected(const Location& place, const std::vector<Location>& others) {
         for (std::size_t k = 0; k < std::min(kConnections, others.size()); ++k) {
-            math::SampleStream stream(math::RandomKey{}.derived(kOfPairs), connections_++);
+            math::SampleStream stream(kCheckKey.derived(CheckStream::pairs), connections_++);
             const auto other = static_cast<std::size_t>(stream.next() * static_cast<double>(others.size()));
             if (sees(place, others[other], caster_)) return true;
         }
@@ -276,7 +276,7 @@ class ReachCheck {
     /// Why no light reaches the first sensor: the object that stands between; empty where none does.
     std::string obstacle_of(const Shining& shining) const {
         if (meets_nothing(shining.trail)) return ": it meets no surface. Turn it towards the scene";
-        math::SampleStream stream(math::RandomKey{}.derived(kFromLights), 0);
+        math::SampleStream stream(kCheckKey.derived(CheckStream::from_lights), 0);
         const Vec3 origin = shining.emit(stream).origin, to_sensor = around_.front().first - origin;
         if (!(length(to_sensor) > 0)) return "";
         const auto hit = caster_.closest(origin, normalized(to_sensor));

@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "checks/checks.h"
+#include "checks/streams.h"
 #include "checks/walks.h"
 #include "math/sampling.h"
 #include "transport/light_sampler.h"
@@ -16,7 +17,6 @@ constexpr int kReflections = 3;
 constexpr std::uint64_t kPointsOnObject = 64;
 /// Lit positions that are tested for each point on an object.
 constexpr std::size_t kLocationsTried = 64;
-enum Purpose : std::uint64_t { kTracing, kConnecting };
 
 /// Tests of pairs of points for all objects: a few tenths of a second at most. Objects that are left then are
 /// not named.
@@ -32,7 +32,7 @@ Trail trace_particles(const Scene& scene, const rays::RayCaster& caster) {
     }
     for (std::uint64_t i = 0; i < kParticles; ++i) {
         if (i % kParticlesAtOnce == 0 && std::ranges::all_of(trail.is_object_met, std::identity{})) break;
-        math::SampleStream stream(math::RandomKey{}.derived(kTracing), i);
+        math::SampleStream stream(kCheckKey.derived(CheckStream::unlit_particles), i);
         const transport::EmittedParticle particle = lights.sample_emission(stream);
         const Location start{particle.origin, particle.direction};
         trail.locations.push_back(start);
@@ -84,7 +84,7 @@ bool is_seen(const Object& object, const std::vector<Location>& lit, const rays:
              std::size_t& tests) {
     const std::size_t stride = std::max<std::size_t>(1, lit.size() / kLocationsTried);
     for (std::uint64_t i = 0; i < kPointsOnObject; ++i) {
-        math::SampleStream stream(math::RandomKey{}.derived(kConnecting), i);
+        math::SampleStream stream(kCheckKey.derived(CheckStream::unlit_connections), i);
         const Location location =
             std::visit([&](const auto& s) { return location_on(s, stream); }, object.shape);
         const double offset = caster.offset_m(location.position, caster.lift().largest_size_m());

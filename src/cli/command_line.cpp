@@ -10,6 +10,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "base/version.h"
 #include "io/text/text.h"
 #include "stilb/error.h"
 
@@ -255,7 +256,7 @@ void Command::run(std::function<int()> command) {
 CommandLine::CommandLine()
     : app_(std::make_unique<CLI::App>("Stilb: illuminance and luminance, each value with its error bar")) {
     app_->name("stilb");
-    app_->set_version_flag("-V,--version", STILB_VERSION);
+    app_->set_version_flag("-V,--version", program_version());
     app_->require_subcommand(0, 1);
 }
 

@@ -83,7 +83,7 @@ Pilot run_pilot(const Estimator& method, std::uint64_t samples, math::RandomKey 
     const std::size_t readings = method.known_part().size();
     std::vector<std::vector<double>> parts(kPilots);
     parallel_for(kPilots, [&](std::size_t part) {
-        ReadingSums sums(readings);
+        Tally sums(readings);
         method.run_batch({{key.derived(part)}, 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
             const Rgb mean = method.known_part()[j] + sums.sum[j] * (1 / static_cast<double>(samples));
@@ -374,11 +374,12 @@ std::unique_ptr<Estimator> choose_for_few(const Problem& problem) {
     const double planning = kPlanningRayCost * planning_rays(problem.measurands.size());
     std::vector<Candidate> candidates;
     if (!has_light_for_light_paths_only(problem.scene)) {
-        candidates.push_back(
-            {.make = make_path,
-             .trials = {trial_of_few(key.derived(PreparationStream::path_pilot), paths(kQuickPilotCost, kLeastQuickPaths), kClearly),
-                        trial_of_few(key.derived(PreparationStream::path_pilot), paths(kPathPilotCost, kLeastPaths))},
-             .is_path = true});
+        candidates.push_back({.make = make_path,
+                              .trials = {trial_of_few(key.derived(PreparationStream::path_pilot),
+                                                      paths(kQuickPilotCost, kLeastQuickPaths), kClearly),
+                                         trial_of_few(key.derived(PreparationStream::path_pilot),
+                                                      paths(kPathPilotCost, kLeastPaths))},
+                              .is_path = true});
     }
     candidates.push_back(
         {.make = make_balanced,
@@ -412,7 +413,8 @@ std::unique_ptr<Estimator> choose_for_many(const Problem& problem) {
          .is_path = true},
         {.make = make_balanced,
          .trials = {{[=](const Estimator& method) {
-             return run_pilot(method, method.batch_granularity(), key.derived(PreparationStream::light_paths_pilot));
+             return run_pilot(method, method.batch_granularity(),
+                              key.derived(PreparationStream::light_paths_pilot));
          }}},
          .cost_left = kPlanningRayCost * planning_rays(problem.measurands.size())}};
     if (problem.max_reflections == transport::kUnlimited) {
@@ -431,10 +433,12 @@ std::unique_ptr<Estimator> choose_for_picture(const Problem& problem) {
             return run_picture_pilot(method, resolution, cost_of_pass, own_key);
         }};
     };
-    std::vector<Candidate> candidates{{.make = make_balanced, .trials = {trial(key.derived(PreparationStream::light_paths_pilot), 1)}}};
+    std::vector<Candidate> candidates{
+        {.make = make_balanced, .trials = {trial(key.derived(PreparationStream::light_paths_pilot), 1)}}};
     if (problem.max_reflections == transport::kUnlimited) {
         const double cost = has_gloss(problem.scene) ? kGlossyPassCost : kGuidedPassCost;
-        candidates.push_back({.make = make_guided, .trials = {trial(key.derived(PreparationStream::guided_pilot), cost)}});
+        candidates.push_back(
+            {.make = make_guided, .trials = {trial(key.derived(PreparationStream::guided_pilot), cost)}});
     }
     return choose(candidates, {problem, problem, picture_cost});
 }

@@ -18,7 +18,8 @@ std::uint32_t number_of(const Pixel& pixel, int width) {
 /// light and direction.
 math::SampleStream stream_of(const Pixel& pixel, int width, const Pass& pass) {
     constexpr unsigned sobol_dimensions = 8;
-    return {pass.key.derived(PassStream::pixels).derived(number_of(pixel, width)), pass.index, sobol_dimensions};
+    return {pass.key.derived(PassStream::pixels).derived(number_of(pixel, width)), pass.index,
+            sobol_dimensions};
 }
 
 /// The unit direction of a pixel's sample; nothing outside of the camera's field.

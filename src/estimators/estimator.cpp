@@ -4,20 +4,6 @@
 
 namespace stilb::estimators {
 
-ReadingSums& ReadingSums::operator+=(const ReadingSums& batch) {
-    for (std::size_t i = 0; i < sum.size(); ++i) {
-        sum[i] += batch.sum[i];
-        largest[i] = std::max(largest[i], batch.largest[i]);
-        largest_direct[i] = std::max(largest_direct[i], batch.largest_direct[i]);
-    }
-    lacking.resize(std::max(lacking.size(), batch.lacking.size()));
-    for (std::size_t i = 0; i < batch.lacking.size(); ++i) lacking[i] += batch.lacking[i];
-    comparisons += batch.comparisons;
-    rays += batch.rays;
-    invalid += batch.invalid;
-    continued += batch.continued;
-    return *this;
-}
 namespace {
 
 struct Range {

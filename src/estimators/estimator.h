@@ -18,6 +18,7 @@
 #include "base/rgb.h"
 #include "estimators/patch_light/patch_options.h"
 #include "estimators/streams.h"
+#include "estimators/tally.h"
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
@@ -48,85 +49,6 @@ struct Problem {
     PatchOptions patches = {};
     /// Monitors the set-up.
     const Monitor& monitor = Monitor::none();
-};
-
-/// The samples that a packet of readings, or a cell of a picture, takes: the first `all`, none of the next
-/// `pause`, and then one for each `every` samples.
-struct Pace {
-    std::uint64_t all = 0, every = 1, pause = 0;
-
-    /// How many it takes of the first `samples` ones.
-    std::uint64_t taken(std::uint64_t samples) const {
-        const std::uint64_t begin = all + pause;
-        return std::min(samples, all) + (samples > begin ? (samples - begin + every - 1) / every : 0);
-    }
-};
-
-/// The unit of work for readings: samples first ... first + count - 1 of the replicate that `key` identifies.
-/// The contribution of a batch depends on these and the paces alone.
-struct Batch {
-    math::KeyOf<BatchStream> key;
-    std::uint64_t first = 0;
-    std::uint64_t count = 0;
-    /// The pace of each packet of readings (Estimator::packets()). If there are none, all readings take all
-    /// samples.
-    std::span<const Pace> paces = {};
-
-    /// The samples that a packet takes, numbered without gaps: low-discrepancy points stay even.
-    Batch of_packet(std::size_t packet) const {
-        if (paces.empty()) return *this;
-        const std::uint64_t begin = paces[packet].taken(first);
-        return {key, begin, paces[packet].taken(first + count) - begin};
-    }
-};
-
-/// The sums of the batches of one replicate. The value of a reading is known part + sum / samples taken.
-struct ReadingSums {
-    std::vector<Rgb> sum;               ///< one for each reading [lx or cd/m2, x samples taken]
-    std::vector<double> largest;        ///< largest single contribution to each reading, before division
-    std::vector<float> largest_direct;  ///< the same of light that comes straight from lamps
-    std::uint64_t rays = 0;
-    std::uint64_t invalid = 0;    ///< non-finite contributions, which are left out
-    std::uint64_t continued = 0;  ///< rays that path tracing continues beyond a guess
-    /// Methods on patches: what the readings lack, by path tracing behind the same rays for some of the
-    /// samples [lx or cd/m2, x comparisons]; empty for other methods.
-    std::vector<Rgb> lacking;
-    std::uint64_t comparisons = 0;
-
-    explicit ReadingSums(std::size_t readings) : sum(readings), largest(readings), largest_direct(readings) {}
-
-    /// Adds what a reading lacks in one comparison.
-    void add_lacking(std::size_t reading, const Rgb& difference) {
-        if (difference.is_finite()) lacking[reading] += difference;
-    }
-    /// Begins another comparison of all readings.
-    void begin_comparison() {
-        lacking.resize(sum.size());
-        ++comparisons;
-    }
-
-    /// Adds all of another batch, of as many readings.
-    ReadingSums& operator+=(const ReadingSums& batch);
-
-    /// Adds light that comes straight from lamps: it does not tell whether samples find any other.
-    void add_direct(std::size_t reading, const Rgb& contribution) {
-        add(reading, contribution, 0);
-        largest_direct[reading] =
-            std::max(largest_direct[reading], static_cast<float>(std::abs(contribution.luminance())));
-    }
-    /// Adds a contribution to a reading.
-    void add(std::size_t reading, const Rgb& contribution) {
-        add(reading, contribution, std::abs(contribution.luminance()));
-    }
-    /// Adds the sum of several, of which the largest is known.
-    void add(std::size_t reading, const Rgb& contributions, double largest_of_them) {
-        if (!contributions.is_finite()) {
-            ++invalid;
-            return;
-        }
-        sum[reading] += contributions;
-        largest[reading] = std::max(largest[reading], largest_of_them);
-    }
 };
 
 /// A block of the picture, the unit of parallel work.
@@ -160,7 +82,7 @@ class PicturePass {
 
     struct Sampled {
         std::uint64_t invalid = 0;    ///< non-finite samples; they are set to 0
-        std::uint64_t continued = 0;  ///< as ReadingSums'
+        std::uint64_t continued = 0;  ///< as Tally'
     };
     /// Writes one unbiased sample of every pixel's luminance [cd/m2] of a block, row by row. Blocks may run
     /// in parallel.
@@ -177,13 +99,13 @@ class Estimator {
 
     /// Adds a batch of the problem's measurands. Batches may run in parallel on different sums. Throws
     /// Cancelled, with unfinished sums, soon after the monitor ends the run.
-    virtual void run_batch(const Batch& batch, ReadingSums& sums) const = 0;
+    virtual void run_batch(const Batch& batch, Tally& sums) const = 0;
     /// The part of each reading that is computed without sampling [lx or cd/m2].
     virtual std::span<const Rgb> known_part() const = 0;
     /// The end of the line of sight of each luminance reading; nothing where it leaves the scene, and nothing
     /// for illuminances.
     virtual std::span<const std::optional<Vec3>> sight_ends() const = 0;
-    /// The largest single contribution to each reading that the set-up has met, as ReadingSums::largest: a
+    /// The largest single contribution to each reading that the set-up has met, as Tally::largest: a
     /// short run may not meet such a one, and must allow for it. Empty where the set-up takes no samples.
     virtual std::vector<double> expected_largest() const { return {}; }
     /// Whether what this place reflects of the lamps' light is found only by those rays, one in each sample

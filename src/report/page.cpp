@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "base/version.h"
 #include "estimators/estimator_list.h"
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
@@ -38,7 +39,7 @@ Html header(const Report& report) {
     Facts facts;
     facts.add("Date", varying(report.date));
     facts.add("Scene", text(report.scene));
-    facts.add("Program", text(fmt::format("Stilb {}", STILB_VERSION)));
+    facts.add("Program", text(fmt::format("Stilb {}", program_version())));
     if (report.readings) {
         const auto& maintenance = report.readings->maintenance;
         facts.add("Values",
@@ -103,7 +104,7 @@ Html files_table(const io::SceneFile& file) {
 
 Html origin(const Report& report) {
     Facts facts;
-    facts.add("Program", text(fmt::format("Stilb {}", STILB_VERSION)));
+    facts.add("Program", text(fmt::format("Stilb {}", program_version())));
     facts.add("Command", element("code", report.command));
     if (report.readings) {
         const RunResult& run = *report.readings;

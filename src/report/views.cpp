@@ -1,4 +1,5 @@
 // The pictures of a report.
+#include "base/version.h"
 #include "io/image/picture_file.h"
 #include "report/report.h"
 
@@ -9,7 +10,7 @@ View make_view(const RenderResult& result, const Sensor& camera, const Scene& sc
     io::PictureOrigin origin;
     origin.scene_name = scene.name;
     origin.sensor = camera.name;
-    origin.version = STILB_VERSION;
+    origin.version = program_version();
     const io::Picture picture = io::picture_of(result.pixels, *camera.camera(), origin);
     const io::ToneCurve curve = io::tone_curve_for(picture, {std::nullopt, whites});
     return {camera.name,

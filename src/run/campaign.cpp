@@ -1,11 +1,15 @@
 #include "run/campaign.h"
 
 #include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
 
 #include "base/parallel.h"
 #include "run/glare/glare.h"
 #include "run/paces.h"
 #include "run/sensor_estimates.h"
+#include "run/streams.h"
 #include "stilb/error.h"
 
 namespace stilb::run {
@@ -18,8 +22,6 @@ constexpr std::uint64_t kLongestBatch = 1 << 16;
 constexpr std::uint64_t kMostSamples = std::uint64_t{1} << 31;
 /// Replicates that a result needs.
 constexpr std::size_t kLeastReplicates = 8;
-/// Replicates of large grids alone, and the least number of readings of such a grid.
-constexpr std::size_t kFewReplicates = 8, kLargeGrid = 64;
 /// Samples of a replicate from which its packets' paces follow.
 constexpr std::uint64_t kSamplesBeforePaces = 16;
 constexpr double kReadingReserve = 2;  ///< paces.h
@@ -40,142 +42,146 @@ std::size_t strands_of_replicate(std::size_t replicates, std::size_t readings) {
 
 }  // namespace
 
-ReplicatePlan ReplicatePlan::of(std::span<const Sensor> sensors, const RunOptions& options,
-                                bool lights_patches) {
-    const bool are_large_grids = !lights_patches && std::ranges::all_of(sensors, [](const Sensor& sensor) {
-        return sensor.size() == 0 || (sensor.count() && sensor.size() >= kLargeGrid);
-    });
-    ReplicatePlan plan;
-    plan.target = options.target;
-    if (are_large_grids) {
-        plan.replicates = kFewReplicates;
-        plan.pools_errors = true;
-        plan.has_paces = options.target == Target::readings;
-    }
-    if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
-    return plan;
-}
-
 std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunOptions& options) {
     std::size_t readings = 0;
     for (const Sensor& sensor : sensors) readings += sensor.size();
     if (readings == 0) return 0;
-    const std::size_t replicates = ReplicatePlan::of(sensors, options, false).replicates;
-    constexpr std::size_t bytes_of_sum = sizeof(Rgb) + sizeof(double) + sizeof(float);  // ReadingSums
+    const std::size_t replicates = RunPlan::of(sensors, options, false).replicates;
+    constexpr std::size_t bytes_of_sum = sizeof(Rgb) + sizeof(double) + sizeof(float);  // Tally
     return readings *
            (kBytesOfReading + bytes_of_sum * replicates * strands_of_replicate(replicates, readings));
 }
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
                    const GlareViews& glare, const PossibleLight& possible, std::size_t readings,
-                   math::RandomKey key, const ReplicatePlan& plan, std::uint64_t least_samples)
+                   RunState state, const RunOptions& options, std::uint64_t least_samples, RunPart part)
     : estimator_(estimator),
       sensors_(sensors),
       glare_(glare),
       possible_(possible),
       expected_largest_(estimator.expected_largest()),
-      pools_errors_(plan.pools_errors),
-      has_paces_(plan.has_paces),
-      target_(plan.target),
-      packets_(estimator.packets()) {
-    if (packets_.empty()) {
-        has_paces_ = false;
-        packets_.resize(readings);
+      target_(options.target),
+      part_(part),
+      packets_(estimator.packets()),
+      state_(std::move(state)) {
+    const bool has_packets = !packets_.empty();
+    if (!has_packets) packets_.resize(readings);
+    if (plan().technique.empty()) {
+        state_.plan.has_paces = plan().has_paces && has_packets;
+        make_plan(readings, least_samples);
     }
+    if (is_part() && !plan().is_complete())
+        throw std::invalid_argument("the plan of a part of a run is not complete");
     const std::size_t packets = *std::ranges::max_element(packets_) + std::size_t{1};
-    const std::size_t strands = strands_of_replicate(plan.replicates, readings);
-    unit_ = strands * estimator.batch_granularity();
-    for (std::size_t r = 0; r < plan.replicates; ++r)
-        replicates_.push_back({key.derived(r), std::vector<Strand>(strands, Strand(readings, packets)), {}});
-    first_check_ = in_units(std::max(estimator.first_check(), samples_for(least_samples)));
-    const double per_batch =
-        kRaysPerRound / (static_cast<double>(plan.replicates) * estimator.rays_per_sample());
-    while (2 * batch_ <= kLongestBatch && static_cast<double>(2 * batch_) <= per_batch) batch_ *= 2;
-    batch_ = std::max(batch_ / unit_, std::uint64_t{1}) * unit_;
+    if (state_.tallies.empty()) state_.tallies.assign(plan().units(), estimators::Tally(readings, packets));
+    const estimators::Tally& first = state_.tallies[0];
+    if (first.sum.size() != readings || first.taken.size() != packets)
+        throw std::invalid_argument("the sums are those of other readings");
+    samples_ = std::numeric_limits<std::uint64_t>::max();
+    for (std::size_t strand = 0; strand < plan().units(); ++strand) {
+        if (part_.has(strand)) samples_ = std::min(samples_, state_.tallies[strand].samples * plan().strands);
+    }
+    for (std::size_t r = 0; r < plan().replicates; ++r) begun_.push_back(r);
 }
 
-std::uint64_t Campaign::in_units(std::uint64_t samples) const {
-    return (samples + unit_ - 1) / unit_ * unit_;
+void Campaign::make_plan(std::size_t readings, std::uint64_t least_samples) {
+    RunPlan& plan = state_.plan;
+    plan.technique = estimator_.technique();
+    plan.strands = strands_of_replicate(plan.replicates, readings);
+    plan.unit = plan.strands * estimator_.batch_granularity();
+    plan.first_check = plan.in_units(std::max(estimator_.first_check(), samples_for(least_samples)));
+    const double per_batch =
+        kRaysPerRound / (static_cast<double>(plan.replicates) * estimator_.rays_per_sample());
+    std::uint64_t batch = 1;
+    while (2 * batch <= kLongestBatch && static_cast<double>(2 * batch) <= per_batch) batch *= 2;
+    plan.most_at_once = std::max(batch / plan.unit, std::uint64_t{1}) * plan.unit;
 }
 
 std::uint64_t Campaign::samples_in_all() const {
     std::uint64_t all = 0;
-    for (const Replicate& replicate : replicates_) all += replicate.samples();
+    for_each_strand([&](const estimators::Tally& strand) { all += strand.samples; });
     return all;
 }
 
 std::uint64_t Campaign::samples_for(std::uint64_t paths) const {
-    const std::uint64_t each = (paths + replicates_.size() - 1) / replicates_.size();
-    return std::min(in_units(each), kMostSamples);
+    const std::uint64_t each = (paths + plan().replicates - 1) / plan().replicates;
+    return std::min(plan().in_units(each), kMostSamples);
 }
 
 std::uint64_t Campaign::most_samples() const { return kMostSamples; }
 
+bool Campaign::is_at_check() const {
+    return samples_ > 0 && !is_part() && check_after(samples_ - plan().unit) == samples_;
+}
+
 bool Campaign::has_result() const {
-    const auto begun = std::ranges::count_if(replicates_, &Replicate::samples);
-    return static_cast<std::size_t>(begun) >= std::min(kLeastReplicates, replicates_.size());
+    if (is_part()) return true;  // its sums
+    const auto begun = std::ranges::count_if(begun_, [&](std::size_t r) { return samples_of(r) > 0; });
+    return static_cast<std::size_t>(begun) >= std::min(kLeastReplicates, plan().replicates);
 }
 
-void Campaign::Strand::add(const estimators::Batch& batch, const estimators::Estimator& estimator) {
-    estimators::ReadingSums more(sums.sum.size());
-    estimator.run_batch(batch, more);
-    sums += more;
-    samples += batch.count;
-    for (std::size_t packet = 0; packet < taken.size(); ++packet)
-        taken[packet] += batch.of_packet(packet).count;
-}
-
-std::uint64_t Campaign::Replicate::samples() const {
+std::uint64_t Campaign::samples_of(std::size_t replicate) const {
     std::uint64_t all = 0;
-    for (const Strand& strand : strands) all += strand.samples;
+    for (const estimators::Tally& strand : strands_of(replicate)) all += strand.samples;
     return all;
 }
 
-std::uint64_t Campaign::Replicate::taken(std::size_t packet) const {
+std::uint64_t Campaign::taken(std::size_t replicate, std::uint32_t packet) const {
     std::uint64_t all = 0;
-    for (const Strand& strand : strands) all += strand.taken[packet];
+    for (const estimators::Tally& strand : strands_of(replicate)) all += strand.taken[packet];
     return all;
 }
 
-std::uint64_t Campaign::Replicate::comparisons() const {
+std::uint64_t Campaign::comparisons_of(std::size_t replicate) const {
     std::uint64_t all = 0;
-    for (const Strand& strand : strands) all += strand.sums.comparisons;
+    for (const estimators::Tally& strand : strands_of(replicate)) all += strand.comparisons;
     return all;
 }
 
-Rgb Campaign::Replicate::sum(std::size_t reading) const {
+Rgb Campaign::mean(std::size_t replicate, std::size_t reading) const {
     Rgb all;
-    for (const Strand& strand : strands) all += strand.sums.sum[reading];
-    return all;
+    for (const estimators::Tally& strand : strands_of(replicate)) all += strand.sum[reading];
+    return all * (1 / static_cast<double>(taken(replicate, packets_[reading])));
+}
+
+void Campaign::sample_strand(std::size_t strand, std::uint64_t count) {
+    estimators::Tally& tally = state_.tallies[strand];
+    const std::size_t replicate = strand / plan().strands;
+    const std::uint64_t first = samples_ + strand % plan().strands * count;
+    // An interrupted run has made the samples of some strands.
+    if (!part_.has(strand) || tally.samples * plan().strands > samples_) return;
+    const math::RandomKey key = key_of_seed(plan().seed).derived(RunStream::readings).derived(replicate);
+    estimators::Batch batch{{key}, first, count, {}};
+    if (!plan().paces.empty()) batch.paces = plan().paces[replicate];
+    estimators::Tally more(tally.sum.size(), tally.taken.size());
+    estimator_.run_batch(batch, more);
+    more.count(batch);
+    tally += more;
 }
 
 void Campaign::advance(std::uint64_t count) {
-    const std::size_t strands = replicates_[0].strands.size();
-    const std::uint64_t each = count / strands;
-    if (has_paces_ && replicates_[0].paces.empty() && samples_ >= kSamplesBeforePaces) set_paces();
     try {
-        parallel_for(replicates_.size() * strands, [&](std::size_t task) {
-            Replicate& replicate = replicates_[task / strands];
-            const std::size_t s = task % strands;
-            replicate.strands[s].add({{replicate.key}, samples_ + s * each, each, replicate.paces}, estimator_);
-        });
+        parallel_for(plan().units(),
+                     [&](std::size_t strand) { sample_strand(strand, count / plan().strands); });
     } catch (const Cancelled&) {
-        if (has_result()) std::erase_if(replicates_, [](const Replicate& r) { return r.samples() == 0; });
+        if (has_result()) std::erase_if(begun_, [&](std::size_t r) { return samples_of(r) == 0; });
         throw;
     }
     samples_ += count;
+    if (plan().has_paces && plan().paces.empty() && samples_ >= kSamplesBeforePaces) set_paces();
 }
 
 void Campaign::set_paces() {
     std::vector<std::size_t> readings;
     for (const Sensor& sensor : sensors_) readings.push_back(sensor.size());
     const std::vector<double> means = replicate_means(0, packets_.size());
-    for (std::size_t r = 0; r < replicates_.size(); ++r)
-        replicates_[r].paces =
-            paces_of(r, {means, packets_.size()}, packets_, readings, samples_, kReadingReserve);
+    for (std::size_t r = 0; r < plan().replicates; ++r)
+        state_.plan.paces.push_back(
+            paces_of(r, {means, packets_.size()}, packets_, readings, samples_, kReadingReserve));
 }
 
 double Campaign::attained_error() const {
+    if (is_part()) return std::numeric_limits<double>::infinity();
     if (target_ == Target::mean)
         return attained_error_of_means(sensors_,
                                        estimate_all(*this, sensors_, statistics::kStoppedConfidence));
@@ -191,7 +197,7 @@ double Campaign::attained_error() const {
 }
 
 bool Campaign::is_decided() const {
-    if (!sensors::has_requirements(sensors_)) return false;
+    if (is_part() || !sensors::has_requirements(sensors_)) return false;
     std::vector<SensorEstimates> all = estimate_all(*this, sensors_, statistics::kVerdictConfidence);
     glare_.rate(all, statistics::kVerdictConfidence);
     for (std::size_t s = 0; s < all.size(); ++s) {
@@ -202,6 +208,7 @@ bool Campaign::is_decided() const {
 }
 
 bool Campaign::is_beyond_reach(double error) const {
+    if (is_part()) return false;
     std::size_t first = 0;
     for (const Sensor& sensor : sensors_) {
         if (sensor.size() == 0) continue;
@@ -214,16 +221,16 @@ bool Campaign::is_beyond_reach(double error) const {
 
 std::uint64_t Campaign::rays() const {
     std::uint64_t rays = 0;
-    for_each_strand([&](const Strand& strand) { rays += strand.sums.rays; });
+    for_each_strand([&](const estimators::Tally& strand) { rays += strand.rays; });
     return rays;
 }
 
 void Campaign::require_valid() const {
     std::uint64_t invalid = 0;
     std::size_t readings = 0;
-    for_each_strand([&](const Strand& strand) {
-        invalid += strand.sums.invalid;
-        readings = strand.sums.sum.size();
+    for_each_strand([&](const estimators::Tally& strand) {
+        invalid += strand.invalid;
+        readings = strand.sum.size();
     });
     const double all = static_cast<double>(samples_in_all()) * static_cast<double>(readings);
     require_mostly_finite(invalid, all);
@@ -233,14 +240,14 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
     const std::size_t count = sensor.size();
     const auto known_part = estimator_.known_part().subspan(first, count);
     Estimates all;
-    if (const auto columns_and_rows = sensor.count(); pools_errors_ && columns_and_rows)
+    if (const auto columns_and_rows = sensor.count(); plan().pools_errors && columns_and_rows)
         all.columns = static_cast<std::size_t>((*columns_and_rows)[0]);
     all.replicate_means = replicate_means(first, count);
     all.largest = largest(first, count);
     for (std::size_t j = 0; j < count; ++j) {
         statistics::LargestContributions known = all.largest[j];
         std::uint64_t samples = 0;
-        for (const Replicate& replicate : replicates_) samples += replicate.taken(packets_[first + j]);
+        for (const std::size_t r : begun_) samples += taken(r, packets_[first + j]);
         const bool is_ruled_out = known.overall == 0 && samples >= kSamplesToRuleOut;
         if (!expected_largest_.empty() && !is_ruled_out)
             known.overall = std::max(known.overall, expected_largest_[first + j]);
@@ -266,32 +273,31 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
 
 double Campaign::largest_reflected(std::size_t reading) const {
     double largest = 0;
-    for_each_strand([&](const Strand& strand) { largest = std::max(largest, strand.sums.largest[reading]); });
+    for_each_strand(
+        [&](const estimators::Tally& strand) { largest = std::max(largest, strand.largest[reading]); });
     return largest;
 }
 
 std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t count) const {
-    std::vector<double> means(replicates_.size() * count);
+    std::vector<double> means(begun_.size() * count);
     const auto known = estimator_.known_part();
-    parallel_for(replicates_.size(), [&](std::size_t r) {
-        for (std::size_t j = 0; j < count; ++j) {
-            means[r * count + j] = known[first + j].luminance() + mean(replicates_[r], first + j).luminance();
-        }
+    parallel_for(begun_.size(), [&](std::size_t r) {
+        for (std::size_t j = 0; j < count; ++j)
+            means[r * count + j] = known[first + j].luminance() + mean(begun_[r], first + j).luminance();
     });
     return means;
 }
 
 std::vector<double> Campaign::lacking(std::size_t first, std::size_t count) const {
-    const auto is_compared = [](const Replicate& replicate) { return replicate.comparisons() > 0; };
-    if (!std::ranges::all_of(replicates_, is_compared)) return {};
-    std::vector<double> differences(replicates_.size() * count);
-    parallel_for(replicates_.size(), [&](std::size_t r) {
-        const auto comparisons = static_cast<double>(replicates_[r].comparisons());
-        for (const Strand& strand : replicates_[r].strands) {
+    if (!std::ranges::all_of(begun_, [&](std::size_t r) { return comparisons_of(r) > 0; })) return {};
+    std::vector<double> differences(begun_.size() * count);
+    parallel_for(begun_.size(), [&](std::size_t r) {
+        const auto comparisons = static_cast<double>(comparisons_of(begun_[r]));
+        for (const estimators::Tally& strand : strands_of(begun_[r])) {
             // A cancelled batch may leave some without.
-            if (strand.sums.comparisons == 0) continue;
+            if (strand.comparisons == 0) continue;
             for (std::size_t j = 0; j < count; ++j)
-                differences[r * count + j] += strand.sums.lacking[first + j].luminance() / comparisons;
+                differences[r * count + j] += strand.lacking[first + j].luminance() / comparisons;
         }
     });
     return differences;
@@ -301,25 +307,25 @@ std::vector<Rgb> Campaign::rgb(std::size_t first, std::size_t count) const {
     std::vector<Rgb> all(count);
     const auto known = estimator_.known_part();
     parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
-        for (const Replicate& replicate : replicates_) {
+        for (const std::size_t replicate : begun_) {
             for (std::size_t j = begin; j < end; ++j) all[j] += mean(replicate, first + j);
         }
         for (std::size_t j = begin; j < end; ++j)
-            all[j] = known[first + j] + all[j] * (1 / static_cast<double>(replicates_.size()));
+            all[j] = known[first + j] + all[j] * (1 / static_cast<double>(begun_.size()));
     });
     return all;
 }
 
 std::vector<statistics::LargestContributions> Campaign::largest(std::size_t first, std::size_t count) const {
     std::vector<statistics::LargestContributions> all(count);
-    const std::size_t width = replicates_.size() * replicates_[0].strands.size();
+    const std::size_t width = begun_.size() * plan().strands;
     parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
         // Strand by strand, in the order of the memory.
         std::vector<double> of_strands((end - begin) * width);
         std::size_t s = 0;
-        for_each_strand([&](const Strand& strand) {
-            const double* own = &strand.sums.largest[first];
-            const float* direct = &strand.sums.largest_direct[first];
+        for_each_strand([&](const estimators::Tally& strand) {
+            const double* own = &strand.largest[first];
+            const float* direct = &strand.largest_direct[first];
             for (std::size_t j = begin; j < end; ++j)
                 of_strands[(j - begin) * width + s] = std::max(own[j], double{direct[j]});
             ++s;

@@ -10,6 +10,7 @@
 
 #include "estimators/estimator.h"
 #include "run/options.h"
+#include "run/plan.h"
 #include "run/possible_light.h"
 #include "run/schedule.h"
 #include "sensors/sensor.h"
@@ -17,18 +18,6 @@
 #include "statistics/interval.h"
 
 namespace stilb::run {
-
-/// How many replicates a run has, and how their errors follow.
-struct ReplicatePlan {
-    std::size_t replicates = 32;
-    bool pools_errors = false;  ///< of readings side by side
-    bool has_paces = false;     ///< packets that are sure enough take fewer samples (paces.h)
-    Target target = Target::readings;
-
-    /// Few replicates where all sensors are large grids: the points of a replicate then lie more evenly, and
-    /// neighbours help with the errors (statistics/pooled_errors.h).
-    static ReplicatePlan of(std::span<const Sensor> sensors, const RunOptions& options, bool lights_patches);
-};
 
 /// About the memory of a run of methods without patches for its readings, beside that of the scene and of a
 /// guess of the light (kGuessBytes).
@@ -41,20 +30,20 @@ class GlareViews;
 /// may have no readings, to what their eyes see, and to the light that may be missed.
 class Campaign final : public Work {
   public:
-    /// `readings`: of all sensors. `key`: of all replicates. `least_samples`: of all replicates, before the
-    /// first error estimate.
+    /// Begins or, where `state` has sums, continues a run of these readings, with as many in all. `part`: of
+    /// its strands; the others stay as they are. `least_samples`: of all replicates, before the first error
+    /// estimate.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, const GlareViews& glare,
-             const PossibleLight& possible, std::size_t readings, math::RandomKey key,
-             const ReplicatePlan& plan, std::uint64_t least_samples);
+             const PossibleLight& possible, std::size_t readings, RunState state, const RunOptions& options,
+             std::uint64_t least_samples, RunPart part = {});
 
     std::uint64_t samples() const override { return samples_; }
     std::uint64_t samples_in_all() const override;
     std::uint64_t samples_for(std::uint64_t paths) const override;
     std::uint64_t most_samples() const override;
-    std::uint64_t next_check() const override {
-        return in_units(statistics::next_check(samples_, first_check_));
-    }
-    std::uint64_t most_at_once() const override { return batch_; }
+    std::uint64_t next_check() const override { return check_after(samples_); }
+    bool is_at_check() const override;
+    std::uint64_t most_at_once() const override { return plan().most_at_once; }
     /// From some of the replicates on, where time does not suffice for all.
     bool has_result() const override;
 
@@ -68,7 +57,10 @@ class Campaign final : public Work {
     bool is_decided() const override;
     bool is_beyond_reach(double error) const override;
 
-    std::size_t replicates() const { return replicates_.size(); }
+    const RunPlan& plan() const { return state_.plan; }
+    /// What another run continues.
+    RunState take_state() { return std::move(state_); }
+    std::size_t replicates() const { return begun_.size(); }
     std::uint64_t rays() const;
     /// Throws as require_mostly_finite().
     void require_valid() const;
@@ -90,38 +82,26 @@ class Campaign final : public Work {
     std::vector<Rgb> rgb(std::size_t first, std::size_t count) const;
 
   private:
-    /// A part of a replicate's samples with sums of its own, so that there is work for many threads.
-    struct Strand {
-        Strand(std::size_t readings, std::size_t packets) : sums(readings), taken(packets) {}
-
-        void add(const estimators::Batch& batch, const estimators::Estimator& estimator);
-
-        estimators::ReadingSums sums;
-        std::vector<std::uint64_t> taken;  ///< samples, by packet
-        std::uint64_t samples = 0;
-    };
-    struct Replicate {
-        math::RandomKey key;
-        std::vector<Strand> strands;
-        std::vector<estimators::Pace> paces;  ///< of the packets; empty: all take all samples
-
-        std::uint64_t samples() const;
-        std::uint64_t taken(std::size_t packet) const;
-        std::uint64_t comparisons() const;  ///< as ReadingSums'
-        Rgb sum(std::size_t reading) const;
-    };
-
-    /// Rounded up to a number of samples of a replicate that its strands can share.
-    std::uint64_t in_units(std::uint64_t samples) const;
+    std::span<const estimators::Tally> strands_of(std::size_t replicate) const {
+        return std::span(state_.tallies).subspan(replicate * plan().strands, plan().strands);
+    }
+    std::uint64_t samples_of(std::size_t replicate) const;
+    std::uint64_t taken(std::size_t replicate, std::uint32_t packet) const;
+    std::uint64_t comparisons_of(std::size_t replicate) const;  ///< as Tally's
+    bool is_part() const { return part_.of > 1; }
+    std::uint64_t check_after(std::uint64_t samples) const {
+        return plan().in_units(statistics::next_check(samples, plan().first_check));
+    }
+    /// Completes the plan of a run that begins.
+    void make_plan(std::size_t readings, std::uint64_t least_samples);
+    void sample_strand(std::size_t strand, std::uint64_t count);
 
     template <typename Visit>
     void for_each_strand(const Visit& visit) const {
-        for (const Replicate& replicate : replicates_) std::ranges::for_each(replicate.strands, visit);
+        for (const std::size_t replicate : begun_) std::ranges::for_each(strands_of(replicate), visit);
     }
     void set_paces();
-    Rgb mean(const Replicate& replicate, std::size_t reading) const {
-        return replicate.sum(reading) * (1 / static_cast<double>(replicate.taken(packets_[reading])));
-    }
+    Rgb mean(std::size_t replicate, std::size_t reading) const;
     /// The largest contribution to a sample of light that does not come straight from a lamp.
     double largest_reflected(std::size_t reading) const;
     std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
@@ -134,14 +114,12 @@ class Campaign final : public Work {
     const GlareViews& glare_;
     const PossibleLight& possible_;
     std::vector<double> expected_largest_;
-    bool pools_errors_, has_paces_;
     Target target_;
+    RunPart part_;
     std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
-    std::uint64_t unit_ = 1;              ///< samples of a replicate are a multiple of this
-    std::vector<Replicate> replicates_;
-    std::uint64_t first_check_ = 1;
-    std::uint64_t batch_ = 1;
-    std::uint64_t samples_ = 0;  ///< of each replicate
+    RunState state_;
+    std::vector<std::size_t> begun_;  ///< the replicates that have samples, or wait for them
+    std::uint64_t samples_ = 0;       ///< of each replicate
 };
 
 }  // namespace stilb::run

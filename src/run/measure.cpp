@@ -16,11 +16,11 @@
 #include "run/power_density.h"
 #include "run/run.h"
 #include "run/sensor_estimates.h"
+#include "run/streams.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"
 #include "transport/receiver.h"
 #include "transport/sharp_light.h"
-#include "run/streams.h"
 
 namespace stilb::run {
 namespace {
@@ -270,20 +270,24 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
         scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
 }
 
-}  // namespace
-
-RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, const RunOptions& asked_options,
-                  ProgressSink* progress, const std::atomic<bool>* interrupt) {
+/// Begins a run, or continues one that has a plan. A part of a run has no results.
+RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors,
+                       const RunOptions& asked_options, ProgressSink* progress,
+                       const std::atomic<bool>* interrupt, RunState& state, RunPart part) {
     if (has_levels_of_detail(scene)) {
         DetailedScene detailed = with_levels_of_detail(scene, given_sensors);
-        RunResult result = measure(detailed.scene, given_sensors, asked_options, progress, interrupt);
+        RunResult result =
+            run_readings(detailed.scene, given_sensors, asked_options, progress, interrupt, state, part);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
+    const bool begins = state.plan.technique.empty();
     require_readings(given_sensors);
     require_valid(asked_options);
-    const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_reading_target(asked_options, given_sensors);
+    const estimators::EstimatorEntry& method =
+        estimators::find_estimator(begins ? asked_options.method : state.plan.technique);
+    RunOptions options = with_reading_target(asked_options, given_sensors);
+    if (!begins) options.seed = state.plan.seed;
     require_measurable(given_sensors, method);
 
     Session session(scene, given_sensors, asked_options, options, progress, interrupt);
@@ -303,18 +307,17 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     const transport::SharpLight sharp = method.lights_patches
                                             ? transport::SharpLight{}
                                             : transport::find_sharp_light(scene, session.caster());
-    const ReplicatePlan plan = ReplicatePlan::of(sensors, options, method.lights_patches);
+    if (begins) state = {RunPlan::of(sensors, options, method.lights_patches), {}};
     std::optional<GlareViews> glare;
     session.on_threads([&] {
-        const PictureSetting setting{scene, session.caster(), options.bounces.value_or(transport::kUnlimited),
-                                     options.seed, session.monitor()};
-        glare.emplace(sensors, setting, plan.replicates,
+        const PictureSetting setting{scene, session.caster(), problem.max_reflections, options.seed,
+                                     session.monitor()};
+        glare.emplace(sensors, setting, state.plan.replicates,
                       key_of_seed(options.seed).derived(RunStream::glare));
     });
     const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
-    Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(),
-                      key_of_seed(options.seed).derived(RunStream::readings), plan,
-                      std::min(sharp.samples, kMostAwaited));
+    Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(), std::move(state),
+                      options, std::min(sharp.samples, kMostAwaited), part);
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });
     campaign.require_valid();
@@ -328,12 +331,28 @@ RunResult measure(const Scene& scene, std::span<const Sensor> given_sensors, con
     warn(std::move(of_scene));
     result.power = scene::installed_power(scene);
     result.rooms = power_of_rooms(scene, session.caster());
-    set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
+    if (part.of == 1) set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
     warn(sharp_light_warnings(sharp, result.samples, scene));
     warn(patch_error_warnings(result));
     session.finish(result);
     result.scene_name = scene.name;
+    state = campaign.take_state();
     return result;
+}
+
+}  // namespace
+
+RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+                  ProgressSink* progress, const std::atomic<bool>* interrupt, RunState* state) {
+    RunState own;
+    return run_readings(scene, sensors, options, progress, interrupt, state ? *state : own, {});
+}
+
+void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+                  RunPart part, RunState& state, ProgressSink* progress, const std::atomic<bool>* interrupt) {
+    if (!options.paths)
+        throw InputError("a part of a run needs a number of paths: it cannot tell the error of the whole");
+    run_readings(scene, sensors, options, progress, interrupt, state, part);
 }
 
 }  // namespace stilb::run

@@ -18,9 +18,9 @@
 #include "run/pictures/picture_comparison.h"
 #include "run/run.h"
 #include "run/schedule.h"
+#include "run/streams.h"
 #include "statistics/interval.h"
 #include "stilb/error.h"
-#include "run/streams.h"
 
 namespace stilb::run {
 namespace {
@@ -119,7 +119,9 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
         add_geometry(camera, session.caster(), result);  // before the samples, so that it counts in the time
         std::optional<PictureComparison> comparison;
         if (method.lights_patches)
-            comparison.emplace(problem, blind, math::KeyOf<PictureComparison::Stream>{key_of_seed(options.seed).derived(RunStream::picture_comparison)});
+            comparison.emplace(problem, blind,
+                               math::KeyOf<PictureComparison::Stream>{
+                                   key_of_seed(options.seed).derived(RunStream::picture_comparison)});
         Passes passes(*estimator, camera.resolution, blind, method.plan(), options.seed, sink,
                       session.monitor(), comparison ? &*comparison : nullptr);
         session.run(passes, result);

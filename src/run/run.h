@@ -7,6 +7,7 @@
 #include <string_view>
 
 #include "run/options.h"
+#include "run/plan.h"
 #include "run/result.h"
 #include "scene/light_groups.h"
 #include "scene/scene.h"
@@ -59,8 +60,19 @@ class PictureSink : public ProgressSink {
 /// time (a time limit decides how many samples are done). `interrupt` ends the run early, with a result.
 /// Throws InputError where an option is wrong, Cancelled where user or time limit end the run before there is
 /// a result, std::runtime_error where the numbers are wrong (too many are not finite).
+///
+/// `state`: may be null. One without a plan receives the plan of the run and its sums. One with a plan is
+/// continued, in the technique and with the seed of its plan: a run that stopped by its error, by time or by
+/// the user gives the bits of a run in one go; so do parts that were merged.
 RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
-                  ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
+                  ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
+                  RunState* state = nullptr);
+
+/// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.
+/// Throws as measure() does, and std::invalid_argument where the plan is not complete.
+void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+                  RunPart part, RunState& state, ProgressSink* progress = nullptr,
+                  const std::atomic<bool>* interrupt = nullptr);
 
 // Pictures, pass by pass, with standard errors.
 

@@ -40,17 +40,24 @@ Monitor::Report report_to(ProgressSink* sink, const Clock& clock) {
 
 Schedule::Ending Schedule::run(Work& work) const {
     const std::uint64_t last = options_.paths ? work.samples_for(*options_.paths) : work.most_samples();
-    double error = kInfinity;
+    double error = work.is_at_check() ? work.attained_error() : kInfinity;
+    if (work.is_at_check() || work.samples() >= last) {
+        if (const auto reason = reason_at_check(work, last, error)) return {*reason, work.attained_error()};
+    }
     for (;;) {
         const std::uint64_t check = std::min(last, work.next_check());
         if (const auto reason = advance_to(check, last, work, error)) return {*reason, work.attained_error()};
-        if (options_.error && error <= *options_.error) return {StopReason::target_reached, error};
-        if (ends_when_decided(options_) && work.is_decided())
-            return {StopReason::requirements_decided, error};
-        if (options_.error && work.is_beyond_reach(*options_.error))
-            return {StopReason::patches_too_coarse, error};
-        if (check == last) return {StopReason::paths_done, error};
+        if (const auto reason = reason_at_check(work, last, error)) return {*reason, error};
     }
+}
+
+std::optional<StopReason> Schedule::reason_at_check(const Work& work, std::uint64_t last,
+                                                    double error) const {
+    if (options_.error && error <= *options_.error) return StopReason::target_reached;
+    if (ends_when_decided(options_) && work.is_decided()) return StopReason::requirements_decided;
+    if (options_.error && work.is_beyond_reach(*options_.error)) return StopReason::patches_too_coarse;
+    if (work.samples() >= last) return StopReason::paths_done;
+    return std::nullopt;
 }
 
 std::optional<StopReason> Schedule::advance_to(std::uint64_t check, std::uint64_t last, Work& work,

@@ -45,6 +45,8 @@ class Work {
     virtual bool has_result() const = 0;
     /// The number of samples at the next error estimate.
     virtual std::uint64_t next_check() const = 0;
+    /// Whether work that goes on has got to an error estimate, which its run may have made.
+    virtual bool is_at_check() const { return false; }
     /// Samples between two checks of the clock.
     virtual std::uint64_t most_at_once() const = 0;
 
@@ -75,6 +77,8 @@ class Schedule {
     Ending run(Work& work) const;
 
   private:
+    /// The reason to end at an error estimate, if there is one; `last` samples are the most.
+    std::optional<StopReason> reason_at_check(const Work& work, std::uint64_t last, double error) const;
     /// Advances to the next error estimate; returns a reason where the run ends before.
     std::optional<StopReason> advance_to(std::uint64_t check, std::uint64_t last, Work& work,
                                          double& error) const;

@@ -16,12 +16,12 @@
 #include "estimators/patch_light/solution/light_gather.h"
 #include "run/schedule.h"
 #include "run/solution_errors.h"
+#include "run/streams.h"
 #include "scene/light_groups.h"
 #include "scene/sealed_sides.h"
 #include "statistics/interval.h"
 #include "stilb/error.h"
 #include "transport/receiver.h"
-#include "run/streams.h"
 
 namespace stilb::run {
 namespace {
@@ -52,7 +52,9 @@ class Walks final : public Work {
         const std::uint64_t dark = first_steps(transport);
         Stage stage(monitor, "first steps", kWalks * (dark + kStepsToFindLight));
         for (std::size_t w = 0; w < kWalks; ++w)
-            walks_.emplace_back(transport, sources_.sources(), math::KeyOf<estimators::BundleIteration::Stream>{key.derived(RunStream::walks).derived(w)});
+            walks_.emplace_back(
+                transport, sources_.sources(),
+                math::KeyOf<estimators::BundleIteration::Stream>{key.derived(RunStream::walks).derived(w)});
         sums_.emplace(transport, estimators::TermLayout(transport, degree, reflecting_sides(transport)),
                       groups.count());
         for (std::uint64_t i = 0; i < dark + kStepsToFindLight; ++i) {

@@ -37,7 +37,7 @@ std::vector<std::vector<double>> replicates_of(const estimators::Estimator& meth
                                                math::RandomKey key, std::uint64_t samples) {
     std::vector<std::vector<double>> means(readings, std::vector<double>(kReplicates));
     parallel_for(kReplicates, [&](std::size_t r) {
-        estimators::ReadingSums sums(readings);
+        estimators::Tally sums(readings);
         method.run_batch({key.derived(r), 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
             const Rgb mean = sums.sum[j] * (1 / static_cast<double>(samples));
@@ -173,7 +173,7 @@ TEST_F(PaleBall, PacesKeepTheExpectation) {
     const std::array<estimators::Pace, 3> paces{{{4, 1}, {4, 4}, {4, 16}}};
     std::vector<std::vector<double>> means(points_.size(), std::vector<double>(kReplicates));
     parallel_for(kReplicates, [&](std::size_t r) {
-        estimators::ReadingSums sums(points_.size());
+        estimators::Tally sums(points_.size());
         constexpr std::uint64_t at_once = 8;
         for (std::uint64_t first = 0; first < kSamples; first += at_once)
             method->run_batch({key_.derived(3).derived(r), first, std::min(at_once, kSamples - first), paces},

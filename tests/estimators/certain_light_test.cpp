@@ -134,7 +134,7 @@ statistics::Estimate mean_of(const Estimator& method, std::size_t readings, math
                              std::uint64_t samples) {
     std::vector<double> means(32);
     parallel_for(means.size(), [&](std::size_t r) {
-        ReadingSums sums(readings);
+        Tally sums(readings);
         method.run_batch({key.derived(r), 0, samples}, sums);
         for (std::size_t j = 0; j < readings; ++j)
             means[r] +=

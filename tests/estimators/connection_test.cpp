@@ -130,7 +130,7 @@ TEST(Connections, ConnectsBodiesBesideSurfaceElements) {
     constexpr double k = 0.2;
     const std::vector<PointTile> tiles =
         tiles_of(sorted, std::vector<double>(sorted.size(), k), caster, transport::kUnlimited);
-    ReadingSums sums(measurands.size());
+    Tally sums(measurands.size());
     Connections(caster, tiles).collect(nodes, sums);
     for (std::size_t j = 0; j < measurands.size(); ++j) {
         double expected = 0;
@@ -182,7 +182,7 @@ TEST(Connections, CollectsWhatAScalarEvaluationDoes) {
             if (!grazes) nodes.push_back(node);
         }
         ASSERT_GT(nodes.size(), 64u);
-        ReadingSums sums(count);
+        Tally sums(count);
         const std::vector<transport::Receiver> sorted = receivers_of(points, caster);
         std::vector<double> sorted_k;
         for (const transport::Receiver& receiver : sorted) sorted_k.push_back(k[receiver.reading()]);

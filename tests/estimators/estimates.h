@@ -24,7 +24,7 @@ inline std::vector<statistics::Estimate> estimates_of(const Estimator& method, s
     const std::uint64_t count = (samples + granularity - 1) / granularity * granularity;
     std::vector<double> means(kReplicates * readings);
     parallel_for(kReplicates, [&](std::size_t r) {
-        ReadingSums sums(readings);
+        Tally sums(readings);
         method.run_batch({key.derived(r), 0, count}, sums);
         for (std::size_t j = 0; j < readings; ++j) {
             const Rgb mean = sums.sum[j] * (1 / static_cast<double>(count));

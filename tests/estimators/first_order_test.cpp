@@ -82,7 +82,7 @@ std::vector<statistics::Estimate> measure(const EstimatorEntry& method, const Sc
     EXPECT_EQ(kSamples % estimator->batch_granularity(), 0u);
     std::vector<double> means;
     for (std::uint64_t replicate = 0; replicate < kReplicates; ++replicate) {
-        ReadingSums sums(rays.size());
+        Tally sums(rays.size());
         estimator->run_batch({math::RandomKey{2}.derived(replicate), 0, kSamples}, sums);
         for (std::size_t j = 0; j < rays.size(); ++j) {
             means.push_back(estimator->known_part()[j].luminance() +

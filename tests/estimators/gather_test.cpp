@@ -56,7 +56,7 @@ class Rounds {
         const Gather gather(caster_, tracer_, tiles, plans);
         std::vector<double> sum(points.size()), squares(points.size());
         for (std::uint64_t r = 0; r < kGatherReplicates; ++r) {
-            ReadingSums sums(points.size());
+            Tally sums(points.size());
             gather.collect({key.derived(r), 0, kRounds}, sums);
             EXPECT_EQ(sums.invalid, 0u);
             for (std::size_t j = 0; j < points.size(); ++j) {
@@ -129,7 +129,7 @@ TEST(Gather, WithoutReflectionsThereIsNothing) {
     const std::vector<transport::Receiver> receivers = receivers_of(points_beside_the_box(4), caster);
     const std::vector<PointTile> tiles = tiles_of(receivers, std::vector<double>(4, 1.0), caster, 0);
     const std::vector<SplitPlan> plans(4, SplitPlan{1, 1});
-    ReadingSums sums(4);
+    Tally sums(4);
     Gather(caster, tracer, tiles, plans).collect({math::RandomKey{1}, 0, 64}, sums);
     for (const Rgb& sum : sums.sum) EXPECT_EQ(sum, Rgb{});
 }

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "base/version.h"
 #include "io/text/compression.h"
 #include "io/text/text.h"
 #include "materials/diffuse.h"
@@ -112,8 +113,9 @@ TEST(SolutionFile, NamesWhatIsWrong) {
               "scene again.");
     std::string other = good;
     other[8] = 9;
-    EXPECT_EQ(message_of(other), "a.solution: the solution is of version 9, but Stilb " STILB_VERSION
-                                 " reads version 3. Solve the scene again.");
+    EXPECT_EQ(message_of(other), "a.solution: the solution is of version 9, but Stilb " +
+                                     std::string(program_version()) +
+                                     " reads version 3. Solve the scene again.");
     EXPECT_EQ(message_of(good.substr(0, good.size() - 1)),
               "a.solution: the file has " + std::to_string(good.size() - 1) + " bytes instead of " +
                   std::to_string(good.size()) +

@@ -28,7 +28,7 @@ class MadeUpPicture final : public estimators::Estimator {
     explicit MadeUpPicture(LuminanceOfPass luminance) : luminance_(std::move(luminance)) {}
 
     std::string_view technique() const override { return "made up"; }
-    void run_batch(const estimators::Batch&, estimators::ReadingSums&) const override {}
+    void run_batch(const estimators::Batch&, estimators::Tally&) const override {}
     std::span<const Rgb> known_part() const override { return {}; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return {}; }
     std::uint64_t batch_granularity() const override { return 1; }

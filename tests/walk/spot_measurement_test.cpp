@@ -112,7 +112,8 @@ TEST_F(SpotTest, LightsThatAreOffAreLeftOut) {
 }
 
 TEST_F(SpotTest, FactorsOfEveryKindOfLight) {
-    const std::string sky = std::string(kSpotRoom) + "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
+    const std::string sky =
+        std::string(kSpotRoom) + "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
     const io::SceneFile file = io::read_scene(sky, "s.toml", ".");
     const std::array factors{LightFactor{"sky", Rgb::grey(3)}, LightFactor{"panel", {{1.0, 2.0, 3.0}}}};
     const Scene scene = with_factors(file.scene, factors);

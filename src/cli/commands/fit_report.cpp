@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "base/version.h"
 #include "math/spherical_harmonics.h"
 
 namespace stilb::cli {
@@ -138,7 +139,7 @@ std::string to_text(const FitReport& report) {
 std::string to_json(const FitReport& report) {
     const fit::MeshFit& fit = report.fit;
     Json json;
-    json["stilb"] = STILB_VERSION;
+    json["stilb"] = program_version();
     json["mesh"] = {
         {"file", report.mesh}, {"faces", report.faces},        {"vertices", report.vertices},
         {"parts", fit.parts},  {"open_edges", fit.open_edges}, {"turned_faces", fit.turned},

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/version.h"
 #include "cli/command_line.h"
 #include "cli/commands/results_table.h"
 #include "cli/outputs.h"
@@ -262,7 +263,7 @@ int run_render(RenderRequest request) {
     origin.scene_hash = io::content_hash(file.sources);
     origin.sensor = sensor.name;
     origin.command = request.command;
-    origin.version = STILB_VERSION;
+    origin.version = program_version();
     RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
     if (request.is_first_look) result.warnings.clear();  // of a scene without its lamps
     add_warnings(result, file.warnings);

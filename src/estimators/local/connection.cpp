@@ -80,7 +80,7 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
 }
 
 /// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
-void flush(const PointTile& tile, TileSums& sums, ReadingSums& readings) {
+void flush(const PointTile& tile, TileSums& sums, Tally& readings) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Rgb response = tile.response_of(i);
         const Rgb received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
@@ -107,7 +107,7 @@ ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3&
 
 }  // namespace
 
-void Connections::collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const {
+void Connections::collect(std::span<const transport::LightVertex> nodes, Tally& sums) const {
     std::vector<ConnectedVertex> connected_vertices;
     connected_vertices.reserve(nodes.size());
     for (const transport::LightVertex& node : nodes)
@@ -135,7 +135,7 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Reading
 }
 
 void connect_points(const rays::RayCaster& caster, const PointTile& tile,
-                    std::span<const EmittingPoint> points, ReadingSums& sums) {
+                    std::span<const EmittingPoint> points, Tally& sums) {
     RayPacket packet;
     LaneMask lanes;
     alignas(64) Floats g_per_m2;

@@ -27,7 +27,7 @@ class Connections {
 
     /// Adds the contributions of the vertices to each receiver, and keeps the largest single ones. Counts
     /// rays. Throws Cancelled, with unfinished sums, where the monitor ends the run.
-    void collect(std::span<const transport::LightVertex> nodes, ReadingSums& sums) const;
+    void collect(std::span<const transport::LightVertex> nodes, Tally& sums) const;
 
   private:
     const rays::RayCaster& caster_;
@@ -44,6 +44,6 @@ struct EmittingPoint {
 };
 /// Adds the light of points to the receivers of a tile, whose responses must be constant. Counts rays.
 void connect_points(const rays::RayCaster& caster, const PointTile& tile,
-                    std::span<const EmittingPoint> points, ReadingSums& sums);
+                    std::span<const EmittingPoint> points, Tally& sums);
 
 }  // namespace stilb::estimators

@@ -100,7 +100,7 @@ class SharedPoint {
 
     /// Adds to the readings the light that comes to y from `direction`, given its illuminance on a
     /// surface across it, over the density of y.
-    void reflect(const Vec3& direction, const Rgb& normal_illuminance, ReadingSums& sums) const {
+    void reflect(const Vec3& direction, const Rgb& normal_illuminance, Tally& sums) const {
         const Vec3 in = surface_.frame().to_local(direction);
         for_each_lane([&](std::size_t i) {
             const Rgb brdf = surface_.brdf_per_sr(in, out_[i]);
@@ -157,10 +157,10 @@ class SharedPoint {
 
 }  // namespace
 
-void Gather::collect(const Batch& batch, ReadingSums& sums) const {
+void Gather::collect(const Batch& batch, Tally& sums) const {
     for (std::size_t tile = 0; tile < tiles_.size(); ++tile) {
         monitor_.require_more();
-        const math::RandomKey key = batch.key.key.derived(tile);
+        const math::RandomKey key = batch.key.derived(BatchStream::gather).derived(tile);
         const std::uint64_t light_paths = plans_[tile * kPacketWidth].paths_per_ray;
         for (std::uint64_t i = batch.first / light_paths; i < (batch.first + batch.count) / light_paths;
              ++i) {
@@ -170,7 +170,7 @@ void Gather::collect(const Batch& batch, ReadingSums& sums) const {
 }
 
 void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64_t round, double weight,
-                         ReadingSums& sums) const {
+                         Tally& sums) const {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         math::SampleStream stream(key.derived(i), round);
         const transport::Receiver& receiver = tile.receivers[i];
@@ -190,7 +190,7 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
 }
 
 void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own,
-                       math::SampleStream& stream, double weight, ReadingSums& sums) const {
+                       math::SampleStream& stream, double weight, Tally& sums) const {
     SharedPoint shared(hit, tracer_.material(hit), tile, own, caster_.center());
     if (!shared.reaches(own)) return;
     const double survival = shared.gathered_share();

@@ -32,13 +32,13 @@ class Gather {
 
     /// One round per so many light paths of the batch as the plan says, with their weight. Throws Cancelled,
     /// with unfinished sums, where the monitor ends the run.
-    void collect(const Batch& batch, ReadingSums& sums) const;
+    void collect(const Batch& batch, Tally& sums) const;
 
   private:
     void trace_round(const PointTile& tile, math::RandomKey key, std::uint64_t round, double weight,
-                     ReadingSums& sums) const;
+                     Tally& sums) const;
     void share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own, math::SampleStream& stream,
-                   double weight, ReadingSums& sums) const;
+                   double weight, Tally& sums) const;
 
     const rays::RayCaster& caster_;
     const transport::PathTracer& tracer_;

@@ -34,7 +34,8 @@ LightPathReception::LightPathReception(const LocalTransport& transport, const Pr
       pilot_paths_(paths_at_once(transport.scene, kPilotPaths)),
       k_per_m2_(sub_points.cells()) {
     if (transport.split != Split::none)
-        pilot_nodes_ = transport.trace_light_paths(problem.preparation_key.derived(PreparationStream::picture_light_paths), 0, pilot_paths_);
+        pilot_nodes_ = transport.trace_light_paths(
+            problem.preparation_key.derived(PreparationStream::picture_light_paths), 0, pilot_paths_);
 }
 
 NearNodePool LightPathReception::trace(const Pass& pass) const {
@@ -44,7 +45,7 @@ NearNodePool LightPathReception::trace(const Pass& pass) const {
 }
 
 void LightPathReception::receive(std::span<const SubPointPacket> packets, const Pixel& block_pixel,
-                                 const NearNodePool& pool, const Pass& pass, ReadingSums& sums) const {
+                                 const NearNodePool& pool, const Pass& pass, Tally& sums) const {
     choose_near(pool, packets, k_per_m2_of(block_pixel),
                 [&](const SubPointPacket& packet, const KernelChoice::Sums& near) {
                     receive(packet, pool, near, pass, sums);
@@ -52,7 +53,7 @@ void LightPathReception::receive(std::span<const SubPointPacket> packets, const 
 }
 
 void LightPathReception::receive(const SubPointPacket& packet, const NearNodePool& pool,
-                                 const KernelChoice::Sums& near, const Pass& pass, ReadingSums& sums) const {
+                                 const KernelChoice::Sums& near, const Pass& pass, Tally& sums) const {
     std::vector<double> k_per_m2;
     for (std::size_t i = 0; i < packet.pixels.size(); ++i) {
         const double factor = packet.receivers[i].constant_response() ? kDiffuseFactor : 1;
@@ -81,7 +82,7 @@ double LightPathReception::k_per_m2_of(const Pixel& pixel) const {
                                kPathsPerSelected};
         return plan_constant(transport_.caster, transport_.tracer, receivers, pilot,
                              std::max<std::uint64_t>(1, paths_ / kPathsPerSelected), kPilotRays,
-                             plan_.key.key.derived(cell));
+                             plan_.key.derived(PassStream::plan_rays).derived(cell));
     });
 }
 

@@ -20,11 +20,11 @@ class LightPathReception {
     NearNodePool trace(const Pass& pass) const;
     /// Adds a sample of the light of packets in a block. `block_pixel`: any pixel of the block.
     void receive(std::span<const SubPointPacket> packets, const Pixel& block_pixel, const NearNodePool& pool,
-                 const Pass& pass, ReadingSums& sums) const;
+                 const Pass& pass, Tally& sums) const;
 
   private:
     void receive(const SubPointPacket& packet, const NearNodePool& pool, const KernelChoice::Sums& near,
-                 const Pass& pass, ReadingSums& sums) const;
+                 const Pass& pass, Tally& sums) const;
     /// The k of the cell around a pixel.
     double k_per_m2_of(const Pixel& pixel) const;
 

@@ -89,7 +89,7 @@ class LocalReadings {
         guided_->add_known(seen_.known_part);
     }
 
-    void run_batch(const Batch& batch, ReadingSums& sums) const {
+    void run_batch(const Batch& batch, Tally& sums) const {
         if (guided_) {
             guided_->collect(batch, sums);
             add_direct_light(batch, sums);
@@ -102,7 +102,7 @@ class LocalReadings {
             connections_.collect(connected_vertices(batch.key, first, std::min(end, first + block)), sums);
         }
         add_direct_light(batch, sums);
-        if (transport_.gathers) gather_.collect({{batch.key.derived(BatchStream::gather)}, batch.first, batch.count}, sums);
+        if (transport_.gathers) gather_.collect(batch, sums);
         add_faint_branches(batch, sums);
     }
 
@@ -229,7 +229,7 @@ class LocalReadings {
         return seen;
     }
 
-    void add_direct_light(const Batch& batch, ReadingSums& sums) const {
+    void add_direct_light(const Batch& batch, Tally& sums) const {
         const math::RandomKey key = batch.key.derived(BatchStream::direct);
         for_each_open_tile([&](const auto& tile, const auto& remainder, std::size_t t) {
             transport_.monitor.require_more();
@@ -272,7 +272,7 @@ class LocalReadings {
 
     /// These branches carry so little light that one path for each granule of light paths suffices, or for
     /// some of the samples with a guess.
-    void add_faint_branches(const Batch& batch, ReadingSums& sums) const {
+    void add_faint_branches(const Batch& batch, Tally& sums) const {
         const math::RandomKey key = batch.key.derived(BatchStream::faint);
         constexpr double guided_share = 0.25;
         const std::uint64_t light_paths = batch_granularity();
@@ -401,7 +401,7 @@ class LocalEstimation final : public Estimator {
     }
 
     std::string_view technique() const override { return technique_; }
-    void run_batch(const Batch& batch, ReadingSums& sums) const override { readings_.run_batch(batch, sums); }
+    void run_batch(const Batch& batch, Tally& sums) const override { readings_.run_batch(batch, sums); }
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::vector<double> expected_largest() const override { return readings_.expected_largest(); }

@@ -26,7 +26,7 @@ class LightPathPicture final : public LocalPicture {
             : picture_(picture), pass_(pass), pool_(picture.reception_.trace(pass)) {}
 
         Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-            ReadingSums sums(pixels.size());
+            Tally sums(pixels.size());
             const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
             picture_.reception_.receive(packets, {block.left, block.top}, pool_, pass_, sums);
             std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());

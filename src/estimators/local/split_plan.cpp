@@ -226,7 +226,7 @@ PilotSums collect_pilot(const rays::RayCaster& caster, std::span<const transport
                              std::span<const transport::LightVertex> nodes) {
         for (std::size_t i = 0; i < packet.size(); ++i) packet[i].set_reading(static_cast<std::uint32_t>(i));
         const std::vector<PointTile> tile = tiles_of(packet, k, caster, pilot.max_reflections);
-        ReadingSums sums(packet.size());
+        Tally sums(packet.size());
         Connections(caster, tile).collect(nodes, sums);
         std::vector<double> luminous;
         for (const Rgb& sum : sums.sum) luminous.push_back(sum.luminance());

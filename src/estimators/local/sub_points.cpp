@@ -62,7 +62,7 @@ SubPoints::SubPoints(const LocalTransport& transport, const Problem& problem, st
       cells_(blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_)) {}
 
 std::vector<SubPointPacket> SubPoints::of_block(const PixelBlock& block, const Pass& pass,
-                                                ReadingSums& sums) const {
+                                                Tally& sums) const {
     std::vector<SubPointPacket> packets;
     for (int top = 0; top < block.height; top += kPacketSide) {
         for (int left = 0; left < block.width; left += kPacketSide) {
@@ -76,7 +76,7 @@ std::vector<SubPointPacket> SubPoints::of_block(const PixelBlock& block, const P
 }
 
 SubPointPacket SubPoints::of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
-                                    ReadingSums& sums) const {
+                                    Tally& sums) const {
     SubPointPacket packet;
     packet.first = {block.left + left, block.top + top};
     const int width = std::min(kPacketSide, block.width - left);
@@ -97,7 +97,7 @@ SubPointPacket SubPoints::of_packet(const PixelBlock& block, int left, int top, 
     return packet;
 }
 
-void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, ReadingSums& sums) const {
+void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, Tally& sums) const {
     const std::span<const transport::Receiver> receivers = packet.receivers;
     transport::DirectLight::TileLight light{};
     const transport::DirectLight::Remainder remainder = transport_.direct.add_certain(receivers, light);

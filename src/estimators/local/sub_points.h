@@ -40,7 +40,7 @@ class SubPoints {
     SubPoints(const LocalTransport& transport, const Problem& problem, std::uint64_t direct_samples);
 
     /// The packets of a block. Adds emission, light from outside and direct light to the block's pixels.
-    std::vector<SubPointPacket> of_block(const PixelBlock& block, const Pass& pass, ReadingSums& sums) const;
+    std::vector<SubPointPacket> of_block(const PixelBlock& block, const Pass& pass, Tally& sums) const;
 
     // Planning: the picture is divided into cells.
 
@@ -52,9 +52,8 @@ class SubPoints {
     const PictureTracing& tracing() const { return tracing_; }
 
   private:
-    SubPointPacket of_packet(const PixelBlock& block, int left, int top, const Pass& pass,
-                             ReadingSums& sums) const;
-    void add_direct(const SubPointPacket& packet, const Pass& pass, ReadingSums& sums) const;
+    SubPointPacket of_packet(const PixelBlock& block, int left, int top, const Pass& pass, Tally& sums) const;
+    void add_direct(const SubPointPacket& packet, const Pass& pass, Tally& sums) const;
     /// Appends the sub-point of a camera path; returns the emission seen.
     Rgb add(transport::Path& path, std::uint32_t reading, std::vector<transport::Receiver>& receivers) const;
 

@@ -93,7 +93,7 @@ Rgb PatchReadings::first_reflected(const View& view) const {
 }
 
 void PatchReadings::add(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t sample,
-                        ReadingSums& sums) const {
+                        Tally& sums) const {
     const math::RandomKey key_of_views = key.derived(Stream::views).derived(sample);
     for (std::size_t i = 0; i < views_.size(); ++i) {
         monitor_.require_more();
@@ -110,8 +110,10 @@ void PatchReadings::add(const PatchLight& light, math::KeyOf<Stream> key, std::u
     }
     for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
         for (std::uint64_t ray = 0; ray < kRaysPerSample; ++ray) {
-            add_illuminances(light, points,
-                             math::SampleStream(key.key.derived(first), kRaysPerSample * sample + ray), sums);
+            add_illuminances(
+                light, points,
+                math::SampleStream(key.derived(Stream::points).derived(first), kRaysPerSample * sample + ray),
+                sums);
         }
     });
     if (sample % samples_per_comparison_ == 0) {
@@ -131,7 +133,7 @@ void PatchReadings::for_each_packet(const Visit& visit) const {
 }
 
 void PatchReadings::compare(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t number,
-                            ReadingSums& sums) const {
+                            Tally& sums) const {
     sums.begin_comparison();
     for (std::size_t i = 0; i < views_.size(); ++i) {
         monitor_.require_more();
@@ -144,7 +146,7 @@ void PatchReadings::compare(const PatchLight& light, math::KeyOf<Stream> key, st
         sums.add_lacking(view.reading, view.transmission * (traced + -1 * of_patches));
     }
     for_each_packet([&](std::size_t first, std::span<const transport::Receiver> points) {
-        const math::RandomKey own_key = key.key.derived(first);
+        const math::RandomKey own_key = key.derived(Stream::points).derived(first);
         math::SampleStream directions(own_key, number);
         const auto [u1, u2] = directions.next_two();
         const GatheredRays rays = gather(light, points, u1, u2);
@@ -169,7 +171,7 @@ Rgb PatchReadings::sampled_luminance(const PatchLight& light, const View& view, 
 }
 
 void PatchReadings::add_illuminances(const PatchLight& light, std::span<const transport::Receiver> points,
-                                     math::SampleStream stream, ReadingSums& sums) const {
+                                     math::SampleStream stream, Tally& sums) const {
     const auto [u1, u2] = stream.next_two();
     const GatheredRays rays = gather(light, points, u1, u2);
     for (std::size_t i = 0; i < points.size(); ++i) {

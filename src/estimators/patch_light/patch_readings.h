@@ -47,11 +47,7 @@ class ReflectedSides final : public PatchLight {
 class PatchReadings {
   public:
     /// Parts of a key of samples.
-    enum class Stream : std::uint64_t {
-        views = ~std::uint64_t{0},
-        comparisons = views - 1,
-        faint = views - 2
-    };
+    enum class Stream : std::uint64_t { views, points, faint, comparisons };
 
     /// `rays_per_sample`: the approximate cost of the light that one sample is taken of.
     PatchReadings(const PatchTransport& transport, std::span<const Measurand> measurands,
@@ -65,7 +61,7 @@ class PatchReadings {
     /// Adds sample number `sample` of every reading, beside the known part. Some samples are compared with
     /// path tracing, which has no patches. Throws Cancelled, with unfinished sums, where the monitor ends the
     /// run.
-    void add(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t sample, ReadingSums& sums) const;
+    void add(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t sample, Tally& sums) const;
 
   private:
     /// A sub-point on the patches.
@@ -105,12 +101,12 @@ class PatchReadings {
     GatheredRays gather(const PatchLight& light, std::span<const transport::Receiver> points, double u1,
                         double u2) const;
     void add_illuminances(const PatchLight& light, std::span<const transport::Receiver> points,
-                          math::SampleStream stream, ReadingSums& sums) const;
+                          math::SampleStream stream, Tally& sums) const;
     /// Calls `visit(first, points)` for all points, some together.
     template <typename Visit>
     void for_each_packet(const Visit& visit) const;
     /// Compares every reading with path tracing once.
-    void compare(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t number, ReadingSums& sums) const;
+    void compare(const PatchLight& light, math::KeyOf<Stream> key, std::uint64_t number, Tally& sums) const;
 
     const PatchTransport& transport_;
     const Monitor& monitor_;

@@ -129,7 +129,7 @@ class PathEstimator final : public Estimator {
     }
 
     std::string_view technique() const override { return "path"; }
-    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+    void run_batch(const Batch& batch, Tally& sums) const override {
         for_parts(points_.size() * batch.count, [&](std::uint64_t first, std::uint64_t end) {
             sample_illuminances(batch, first, end, sums);
         });
@@ -151,7 +151,8 @@ class PathEstimator final : public Estimator {
         constexpr double of_plain = 2, of_general = 8;
         double cost = of_plain;
         for (const transport::LightVertex& vertex : transport::trace_light_paths(
-                 scene_, caster_, paths_.lights, max_reflections_, preparation_key_.key, 0, light_paths)) {
+                 scene_, caster_, paths_.lights, max_reflections_,
+                 preparation_key_.derived(PreparationStream::light_paths), 0, light_paths)) {
             const bool is_plain = vertex.material->is<Diffuse>() && vertex.shading_normal == vertex.normal;
             cost += (is_plain ? of_plain : of_general) / static_cast<double>(light_paths);
         }
@@ -201,8 +202,7 @@ class PathEstimator final : public Estimator {
         }
     }
 
-    void sample_illuminances(const Batch& batch, std::uint64_t first, std::uint64_t end,
-                             ReadingSums& sums) const {
+    void sample_illuminances(const Batch& batch, std::uint64_t first, std::uint64_t end, Tally& sums) const {
         std::vector<rays::Ray> rays;
         std::vector<math::SampleStream> streams;
         struct Target {
@@ -212,7 +212,8 @@ class PathEstimator final : public Estimator {
         std::vector<Target> targets;
         for (std::uint64_t n = first; n < end; ++n) {
             const transport::Receiver& point = points_[n / batch.count];
-            math::SampleStream stream(batch.key.key.derived(point.reading()), batch.first + n % batch.count);
+            math::SampleStream stream(batch.key.derived(BatchStream::camera_paths).derived(point.reading()),
+                                      batch.first + n % batch.count);
             sums.add_direct(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
@@ -237,12 +238,13 @@ class PathEstimator final : public Estimator {
         }
     }
 
-    void sample_luminances(const Batch& batch, std::uint64_t first, std::uint64_t end,
-                           ReadingSums& sums) const {
+    void sample_luminances(const Batch& batch, std::uint64_t first, std::uint64_t end, Tally& sums) const {
         std::vector<transport::Path> paths;
         for (std::uint64_t n = first; n < end; ++n) {
             const FirstHit& seen = sights_[n / batch.count];
-            const math::SampleStream stream(batch.key.key.derived(seen.reading), batch.first + n % batch.count);
+            const math::SampleStream stream(
+                batch.key.derived(BatchStream::camera_paths).derived(seen.reading),
+                batch.first + n % batch.count);
             paths.push_back({seen.hit, -seen.direction, stream, max_reflections_});
         }
         paths_.tracer.trace(paths, rays::Coherence::coherent);

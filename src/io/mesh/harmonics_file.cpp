@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "base/version.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
@@ -124,7 +125,7 @@ HarmonicsFile parse_harmonics(std::string_view content, const std::string& name)
         reader.fail(
             fmt::format("the file has version {} of the format, but Stilb {} reads version {}. Fit "
                         "the mesh again.",
-                        version, STILB_VERSION, kVersion));
+                        version, program_version(), kVersion));
     }
     const int degree = reader.whole(json, "degree");
     if (degree < 0 || degree > math::kMostHarmonicDegree) {

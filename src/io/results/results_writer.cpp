@@ -12,6 +12,7 @@
 #include <optional>
 
 #include "base/parallel.h"
+#include "base/version.h"
 #include "estimators/estimator_list.h"
 #include "io/text/table.h"
 #include "sensors/areas/measured_raster.h"
@@ -294,7 +295,7 @@ std::vector<std::string> with_readings(std::string_view document, std::span<cons
 std::vector<std::string> json_parts(const RunResult& result, const std::string& scene,
                                     ReplicateValues replicates) {
     const estimators::EstimatorEntry& technique = estimators::find_estimator(result.technique);
-    Json json{{"stilb", STILB_VERSION},
+    Json json{{"stilb", program_version()},
               {"format", kFormat},
               {"scene", scene},
               {"scene_name", result.scene_name},

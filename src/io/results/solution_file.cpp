@@ -9,6 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "base/bytes.h"
+#include "base/version.h"
 #include "io/results/packed_light.h"
 #include "io/text/compression.h"
 #include "io/text/file_kind.h"
@@ -20,85 +22,10 @@
 namespace stilb::io {
 namespace {
 
-static_assert(std::endian::native == std::endian::little, "numbers are written as they are in memory");
-
 constexpr std::uint32_t kVersion = 3;
+constexpr std::string_view kRemedy = "Solve the scene again.";
 /// Magic, version, size and hash.
 constexpr std::size_t kHeaderSize = kSolutionBeginning.size() + 4 + 8 + 8;
-
-/// Numbers, or structs of numbers of one size, which have no gaps.
-template <typename T>
-constexpr bool kIsPlain = std::is_trivially_copyable_v<T> && sizeof(T) % 2 == 0;
-
-class ByteWriter {
-  public:
-    template <typename T>
-    void add(const T& number) {
-        static_assert(kIsPlain<T>);
-        bytes_.append(reinterpret_cast<const char*>(&number), sizeof number);
-    }
-    template <typename List>
-    void add_list(const List& list) {
-        using T = std::remove_cvref_t<decltype(*std::data(list))>;
-        static_assert(kIsPlain<T> || std::is_same_v<T, char>);
-        add(static_cast<std::uint64_t>(std::size(list)));
-        bytes_.append(reinterpret_cast<const char*>(std::data(list)), std::size(list) * sizeof(T));
-    }
-    std::string take() { return std::move(bytes_); }
-
-  private:
-    std::string bytes_;
-};
-
-class ByteReader {
-  public:
-    /// `first`: the offset of the first byte in the file, for messages.
-    ByteReader(std::string_view bytes, std::size_t first, const std::string& name)
-        : rest_(bytes), position_(first), name_(name) {}
-
-    template <typename T>
-    T take(std::string_view what) {
-        static_assert(kIsPlain<T>);
-        if (rest_.size() < sizeof(T)) fail(fmt::format("the file ends before {}", what));
-        T number;
-        std::memcpy(&number, rest_.data(), sizeof number);
-        skip(sizeof number);
-        return number;
-    }
-    /// Allocates memory only after checking the remaining size of the file.
-    template <typename List>
-    List take_list(std::string_view what) {
-        using T = typename List::value_type;
-        static_assert(kIsPlain<T> || std::is_same_v<T, char>);
-        const auto count = take<std::uint64_t>(what);
-        if (count > rest_.size() / sizeof(T)) {
-            fail(fmt::format("{}: {} entries are expected, but only {} bytes are left", what, count,
-                             rest_.size()));
-        }
-        List list(static_cast<std::size_t>(count), T{});
-        if (count > 0) std::memcpy(list.data(), rest_.data(), list.size() * sizeof(T));
-        skip(list.size() * sizeof(T));
-        return list;
-    }
-    void expect_end() const {
-        if (!rest_.empty()) fail(fmt::format("{} surplus bytes", rest_.size()));
-    }
-    [[noreturn]] void fail(const std::string& message) const {
-        throw InputError(
-            fmt::format("damaged at byte {} of its contents: {}. Solve the scene again.", position_, message),
-            {name_});
-    }
-
-  private:
-    void skip(std::size_t count) {
-        rest_.remove_prefix(count);
-        position_ += count;
-    }
-
-    std::string_view rest_;
-    std::size_t position_;
-    const std::string& name_;
-};
 
 void write_patches(const patches::Patches& patches, ByteWriter& bytes) {
     bytes.add(patches.center);
@@ -187,7 +114,7 @@ std::string header_of(std::string_view body) {
 
 /// The contents of a body, whose hash was right.
 std::string uncompressed(std::string_view body, const std::string& name) {
-    ByteReader bytes(body, kHeaderSize, name);
+    ByteReader bytes(body, kHeaderSize, name, kRemedy);
     const auto size = bytes.take<std::uint64_t>("the size of the contents");
     if (size > estimators::kMostStoredBytes)
         bytes.fail(fmt::format("contents of {} bytes are too large", size));
@@ -212,13 +139,13 @@ StoredSolution read_solution(std::string_view bytes, const std::string& name) {
     if (!bytes.starts_with(kSolutionBeginning))
         fail(fmt::format("not a solution: the file does not begin with {}.", kSolutionBeginning));
     constexpr std::size_t begun = kSolutionBeginning.size();
-    ByteReader header(bytes.substr(begun), begun, name);
+    ByteReader header(bytes.substr(begun), begun, name, kRemedy);
     const auto version = header.take<std::uint32_t>("the version");
     if (version != kVersion) {
         fail(
             fmt::format("the solution is of version {}, but Stilb {} reads version {}. Solve the "
                         "scene again.",
-                        version, STILB_VERSION, kVersion));
+                        version, program_version(), kVersion));
     }
     const auto size = header.take<std::uint64_t>("the size");
     if (size != bytes.size()) {
@@ -235,7 +162,7 @@ StoredSolution read_solution(std::string_view bytes, const std::string& name) {
             "again.");
     }
     const std::string contents = uncompressed(body, name);
-    ByteReader reader(contents, 0, name);
+    ByteReader reader(contents, 0, name, kRemedy);
     return read_contents(reader);
 }
 
@@ -252,7 +179,7 @@ std::size_t write_solution_file(const StoredSolution& stored, const std::filesys
 StoredSolution stored_solution(const RunSummary& run, estimators::PatchSolution solution,
                                const SceneFile& scene, const std::filesystem::path& path) {
     StoredSolution stored;
-    stored.version = STILB_VERSION;
+    stored.version = program_version();
     const auto folder = std::filesystem::absolute(path).parent_path();
     stored.scene = std::filesystem::proximate(scene.sources.front(), folder).generic_string();
     stored.light_hash = light_hash(scene.sources, scene.overrides);

@@ -33,7 +33,8 @@ estimators::Problem without_patches(estimators::Problem problem) {
 
 PictureComparison::PictureComparison(const estimators::Problem& problem, const std::vector<bool>& blind,
                                      math::KeyOf<Stream> key)
-    : pixels_(chosen_pixels(blind, key.derived(Stream::choice))), traced_cd_m2_(kReplicates * pixels_.size()) {
+    : pixels_(chosen_pixels(blind, key.derived(Stream::choice))),
+      traced_cd_m2_(kReplicates * pixels_.size()) {
     const auto paths = estimators::make_path(without_patches(problem));
     const int width = problem.camera->resolution[0];
     Stage stage(problem.monitor, "comparison with path tracing", pixels_.size());
@@ -44,7 +45,8 @@ PictureComparison::PictureComparison(const estimators::Problem& problem, const s
             Rgb sum;
             for (std::uint64_t path = 0; path < kPathsOfAReplicate; ++path) {
                 Rgb luminance;
-                paths->start({{key.derived(Stream::paths).derived(r)}, path, r})->sample(block, {&luminance, 1});
+                paths->start({{key.derived(Stream::paths).derived(r)}, path, r})
+                    ->sample(block, {&luminance, 1});
                 sum += luminance;
             }
             traced_cd_m2_[r * pixels_.size() + i] = sum.luminance() / double{kPathsOfAReplicate};

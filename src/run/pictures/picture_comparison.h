@@ -13,7 +13,7 @@ namespace stilb::run {
 class PictureComparison {
   public:
     /// Parts of its key.
-    enum class Stream : std::uint64_t { choice, paths = 2 };
+    enum class Stream : std::uint64_t { choice, paths };
 
     /// Traces paths through some pixels, some seconds of work at most. `blind`: the pixels outside of the
     /// camera's field.

@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "base/half.h"
+#include "base/version.h"
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "estimators/patch_light/solution/reflection_table.h"
@@ -123,7 +124,7 @@ class SceneContainer {
         if (!coarse.triangles.empty()) add_triangles("coarse_triangles", coarse.triangles);
         add_light_vertices();
         WalkJson header{{"name", walk_.name},
-                        {"stilb", STILB_VERSION},
+                        {"stilb", program_version()},
                         {"file", walk_.file},
                         {"degree", solution_.degree},
                         {"bounds", bounds_json(mesh)}};

@@ -6,6 +6,7 @@
 #include <set>
 
 #include "base/vec.h"
+#include "base/version.h"
 #include "checks/checks.h"
 #include "cli/commands/info/ugr_report.h"
 #include "geometry/harmonics/surface.h"
@@ -223,7 +224,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name, cons
         if (location_of(light) != LightLocation::infinity) total_flux_lm += flux_lm(scene, light).luminance();
     }
 
-    Json json{{"stilb", STILB_VERSION}, {"file", name}, {"name", scene.name}};
+    Json json{{"stilb", program_version()}, {"file", name}, {"name", scene.name}};
     json["materials"] = list_json(scene.materials, material_json);
     json["objects"] = Json::array();
     for (std::size_t i = 0; i < scene.objects.size(); ++i)
@@ -258,7 +259,7 @@ InfoReport report_luminaire(const std::filesystem::path& path, UgrTables ugr) {
     if (ugr == UgrTables::written) luminaire["ugr"] = ugr_json(file, solid, path.string());
     std::vector<std::string> warnings = photometry_warnings(file, solid);
     if (const auto of_opening = io::opening_warning(file)) warnings.push_back(*of_opening);
-    return {{"stilb", STILB_VERSION},
+    return {{"stilb", program_version()},
             {"file", path.string()},
             {"luminaires", Json::array({luminaire})},
             {"warnings", warnings}};
@@ -283,7 +284,7 @@ InfoReport report_mesh(const std::filesystem::path& path, const Monitor& monitor
     std::vector<std::string> warnings = io::mesh_warnings(file);
     for (std::string& warning : checks::hole_warnings(scene, components))
         warnings.push_back(std::move(warning));
-    return {{"stilb", STILB_VERSION},
+    return {{"stilb", program_version()},
             {"file", path.string()},
             {"objects", Json::array({object})},
             {"warnings", warnings},

@@ -140,7 +140,7 @@ Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, flo
     return luminance;
 }
 
-void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings) {
+void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings) {
     readings.continued += sums.continued;
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Rgb per_ray = tile.response_of(i) * (kPi * weight);
@@ -151,7 +151,7 @@ void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, 
 }
 
 void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
-                                    ReadingSums& readings) const {
+                                    Tally& readings) const {
     rays::RayHitPacket packet;
     LaneMask used{};
     std::array<transport::Receiver::Sample, kPacketWidth> samples;

@@ -72,11 +72,11 @@ class GuessGather {
     /// The same with receivers of any response, by rays about in proportion to it: the rays bring all the
     /// light of the guess.
     void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
-                           ReadingSums& readings) const;
+                           Tally& readings) const;
     /// A sample of a receiver's light by path tracing alone.
     Rgb traced(const transport::Receiver& receiver, math::SampleStream stream) const;
     /// Adds the light of the rays to the readings, `weight` times.
-    static void flush(const PointTile& tile, const Sums& sums, double weight, ReadingSums& readings);
+    static void flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings);
 
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, RayPacket& packet,

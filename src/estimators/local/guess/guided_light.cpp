@@ -201,7 +201,7 @@ auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_
     return groups;
 }
 
-void GuidedReadings::collect(const Batch& batch, ReadingSums& sums) const {
+void GuidedReadings::collect(const Batch& batch, Tally& sums) const {
     gather(batch, sums);
     gather_general(batch, sums);
     gather_dark(batch, sums);
@@ -222,7 +222,7 @@ double GuidedReadings::cost_per_sample(double stands_for) const {
                          of_general * static_cast<double>(divided_.general.size()));
 }
 
-void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const {
+void GuidedReadings::gather_general(const Batch& batch, Tally& sums) const {
     for (std::size_t t = 0; t < general_tiles_.size(); ++t) {
         monitor_.require_more();
         const math::RandomKey key = batch.key.derived(BatchStream::general_rays).derived(t);
@@ -232,7 +232,7 @@ void GuidedReadings::gather_general(const Batch& batch, ReadingSums& sums) const
     }
 }
 
-void GuidedReadings::gather_dark(const Batch& batch, ReadingSums& sums) const {
+void GuidedReadings::gather_dark(const Batch& batch, Tally& sums) const {
     for (std::size_t j = lit_; j < even_.size(); ++j) {
         monitor_.require_more();
         const Batch own = batch.of_packet(j / kPacketWidth);
@@ -243,7 +243,7 @@ void GuidedReadings::gather_dark(const Batch& batch, ReadingSums& sums) const {
     }
 }
 
-void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
+void GuidedReadings::gather(const Batch& batch, Tally& sums) const {
     for (std::size_t t = 0, group = 0; t < tiles_.size(); ++t) {
         monitor_.require_more();
         if (t == groups_[group].last) ++group;
@@ -259,8 +259,9 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
         GuessGather::Sums tile_sums;
         std::vector<EmittingPoint> connected;
         for (std::uint64_t i = 0; i < own.count; ++i) {
-            light_.gather.add_round(tile, lanes, points[i], batch.key.derived(BatchStream::continued_rays).derived(t),
-                                    own.first + i, {sources.sights, sources.points.split}, tile_sums);
+            light_.gather.add_round(tile, lanes, points[i],
+                                    batch.key.derived(BatchStream::continued_rays).derived(t), own.first + i,
+                                    {sources.sights, sources.points.split}, tile_sums);
             light_.points.select(sources.points,
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
                                  connected);
@@ -271,7 +272,7 @@ void GuidedReadings::gather(const Batch& batch, ReadingSums& sums) const {
     }
 }
 
-void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) const {
+void GuidedReadings::connect_residual(const Batch& batch, Tally& sums) const {
     const std::uint64_t end = batch.first + batch.count;
     for (std::uint64_t first = batch.first; first < end; first += light_.samples_together) {
         const std::uint64_t last = std::min(end, first + light_.samples_together);
@@ -280,14 +281,16 @@ void GuidedReadings::connect_residual(const Batch& batch, ReadingSums& sums) con
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(kPathsPerSample);
         const NearNodePool pool(nodes, light_.caster.center());
         const math::RandomKey key = batch.key.derived(BatchStream::residual_selection).derived(first);
-        const std::uint64_t part = last - first;
-        connect(pool, tiles_, groups_, {{key.derived(0)}, first, part, batch.paces}, sums);
-        connect(pool, general_tiles_, general_groups_, {{key.derived(1)}, first, part}, sums);
+        const Batch part{batch.key, first, last - first, batch.paces};
+        connect(pool, tiles_, groups_, key.derived(0), part, sums);
+        connect(pool, general_tiles_, general_groups_, key.derived(1), {part.key, part.first, part.count},
+                sums);
     }
 }
 
 void GuidedReadings::connect(const NearNodePool& pool, std::span<const PointTile> tiles,
-                             std::span<const Group> groups, const Batch& batch, ReadingSums& sums) const {
+                             std::span<const Group> groups, math::RandomKey key, const Batch& batch,
+                             Tally& sums) const {
     for (const Group& group : groups) {
         std::optional<KernelChoice::Sums> near;
         for (std::size_t t = group.first; t < group.last; ++t) {
@@ -295,7 +298,7 @@ void GuidedReadings::connect(const NearNodePool& pool, std::span<const PointTile
             if (taken == 0) continue;
             if (!near) near = pool.sums_for(group.spread, light_.k_per_m2(kPoints));
             std::vector<transport::LightVertex> nodes =
-                pool.select(*near, kVerticesPerSample * taken, math::SampleStream(batch.key.key, t, 0).next());
+                pool.select(*near, kVerticesPerSample * taken, math::SampleStream(key, t, 0).next());
             const double share = static_cast<double>(taken) / static_cast<double>(batch.count);
             for (transport::LightVertex& node : nodes) node.flux_lm *= share;
             Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);

@@ -82,7 +82,7 @@ class GuidedReadings {
 
     /// A packet of readings with a pace of its own is sixteen receivers in their order, so there must be as
     /// many of these as readings, all of constant response.
-    void collect(const Batch& batch, ReadingSums& sums) const;
+    void collect(const Batch& batch, Tally& sums) const;
     bool can_have_paces() const { return general_tiles_.empty(); }
     /// Adds the light that needs no samples.
     void add_known(std::span<Rgb> readings) const;
@@ -107,12 +107,12 @@ class GuidedReadings {
 
     /// Sets also the known light of the groups' receivers.
     void make_sources();
-    void gather(const Batch& batch, ReadingSums& sums) const;
-    void gather_general(const Batch& batch, ReadingSums& sums) const;
-    void gather_dark(const Batch& batch, ReadingSums& sums) const;
-    void connect_residual(const Batch& batch, ReadingSums& sums) const;
+    void gather(const Batch& batch, Tally& sums) const;
+    void gather_general(const Batch& batch, Tally& sums) const;
+    void gather_dark(const Batch& batch, Tally& sums) const;
+    void connect_residual(const Batch& batch, Tally& sums) const;
     void connect(const NearNodePool& pool, std::span<const PointTile> tiles, std::span<const Group> groups,
-                 const Batch& batch, ReadingSums& sums) const;
+                 math::RandomKey key, const Batch& batch, Tally& sums) const;
 
     const GuidedLight& light_;
     /// Empty where all receivers are even as they are: there may be millions.

@@ -66,11 +66,13 @@ class GuidedPicture final : public LocalPicture {
             : picture_(picture),
               pass_(pass),
               pool_(picture.trace_residual(pass), picture.guide_.caster.center()),
-              selection_point_(math::SampleStream(pass.key.derived(PassStream::guess_points), pass.index, 4).next_two()),
-              gather_points_(gather_points(pass.key.derived(PassStream::guess_rays), kRays * pass.index, kRays)) {}
+              selection_point_(
+                  math::SampleStream(pass.key.derived(PassStream::guess_points), pass.index, 4).next_two()),
+              gather_points_(
+                  gather_points(pass.key.derived(PassStream::guess_rays), kRays * pass.index, kRays)) {}
 
         Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-            ReadingSums sums(pixels.size());
+            Tally sums(pixels.size());
             const auto [even, glossy] = picture_.divide(picture_.sub_points_.of_block(block, pass_, sums));
             choose_near(pool_, even, picture_.guide_.k_per_m2(kPoints),
                         [&](const SubPointPacket& packet, const KernelChoice::Sums& near) {
@@ -90,17 +92,18 @@ class GuidedPicture final : public LocalPicture {
         }
 
         /// Adds a sample of the indirect light of a packet whose receivers have a constant response.
-        void receive(const SubPointPacket& packet, const KernelChoice::Sums& near, ReadingSums& sums) const {
+        void receive(const SubPointPacket& packet, const KernelChoice::Sums& near, Tally& sums) const {
             const GuidedLight& guide = picture_.guide_;
             const std::vector<PointTile> tiles = guide.tiles(packet.receivers, kPoints);
-            const double u = math::SampleStream(packet.key(pass_, PassStream::residual_selection), pass_.index).next();
+            const double u =
+                math::SampleStream(packet.key(pass_, PassStream::residual_selection), pass_.index).next();
             Connections(guide.caster, tiles, picture_.transport_.monitor)
                 .collect(pool_.select(near, kVertices, u), sums);
             gather(packet, tiles, sums);
         }
 
         /// Light of the guess for receivers of constant response.
-        void gather(const SubPointPacket& packet, std::span<const PointTile> tiles, ReadingSums& sums) const {
+        void gather(const SubPointPacket& packet, std::span<const PointTile> tiles, Tally& sums) const {
             const GuidedLight& guide = picture_.guide_;
             std::vector<std::array<double, 2>> shifts;
             for (const Pixel& pixel : packet.pixels) shifts.push_back(shift_of(pixel, pass_));
@@ -118,7 +121,8 @@ class GuidedPicture final : public LocalPicture {
                 const GatherLanes lanes(tile, shifts);
                 GuessGather::Sums gathered;
                 for (std::uint64_t i = 0; i < kRays; ++i)
-                    guide.gather.add_round(tile, lanes, gather_points_[i], packet.key(pass_, PassStream::continued_rays),
+                    guide.gather.add_round(tile, lanes, gather_points_[i],
+                                           packet.key(pass_, PassStream::continued_rays),
                                            kRays * pass_.index + i, {{}, guide.points.split()}, gathered);
                 GuessGather::flush(tile, gathered, 1. / kRays, sums);
             }
@@ -171,8 +175,8 @@ class GuidedPicture final : public LocalPicture {
         const auto pixels = static_cast<std::uint64_t>(width) * static_cast<std::uint64_t>(height);
         const std::uint64_t paths = paths_at_once(
             transport_.scene, std::clamp<std::uint64_t>(pixels / kPixelsPerPath, 16, kMostPaths));
-        std::vector<transport::LightVertex> nodes =
-            guide_.residual.trace({pass.key.derived(PassStream::residual)}, pass.index * paths, (pass.index + 1) * paths);
+        std::vector<transport::LightVertex> nodes = guide_.residual.trace(
+            {pass.key.derived(PassStream::residual)}, pass.index * paths, (pass.index + 1) * paths);
         for (transport::LightVertex& node : nodes) node.flux_lm *= 1. / static_cast<double>(paths);
         return nodes;
     }

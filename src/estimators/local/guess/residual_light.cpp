@@ -219,11 +219,12 @@ std::vector<transport::LightVertex> ResidualLight::trace(math::KeyOf<Stream> key
     std::vector<transport::LightVertex> nodes;
     if (!sides_.empty()) {
         for (std::uint64_t path = first; path < end; ++path)
-            trace_one(math::SampleStream(key.key, path, 8), nodes);
+            trace_one(math::SampleStream(key.derived(Stream::paths), path, 8), nodes);
     }
     for (std::uint64_t path = first; direct_.has_particles() && path < end; ++path)
         trace_particle(math::SampleStream(key.derived(Stream::particles), path, 8), nodes);
-    if (has_light_for_light_paths_only_) trace_light_paths_only(key.derived(Stream::light_paths), first, end, nodes);
+    if (has_light_for_light_paths_only_)
+        trace_light_paths_only(key.derived(Stream::light_paths), first, end, nodes);
     return nodes;
 }
 

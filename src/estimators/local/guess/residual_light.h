@@ -25,7 +25,7 @@ namespace stilb::estimators {
 class ResidualLight {
   public:
     /// Parts of the keys of its paths.
-    enum class Stream : std::uint64_t { light_paths = 1, particles = 2 };
+    enum class Stream : std::uint64_t { paths, light_paths, particles };
 
     /// `key`: for the pilot that finds where r is large.
     ResidualLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,

@@ -112,15 +112,15 @@ class Particles final : public Estimator {
     }
 
     std::string_view technique() const override { return kParticles; }
-    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+    void run_batch(const Batch& batch, Tally& sums) const override {
         IlluminationMap map(transport_);
         map.add(batch.key.derived(BatchStream::particles), batch.first, batch.count);
         const ReflectedSides light(map.reflected_cd_m2());
         const std::uint64_t first = batch.first / kParticlesPerEvaluation,
                             evaluations = batch.count / kParticlesPerEvaluation;
-        ReadingSums seen(sums.sum.size());
+        Tally seen(sums.sum.size());
         for (std::uint64_t i = first; i < first + evaluations; ++i) {
-            readings_.add(light, {batch.key.derived(BatchStream::evaluations)}, i, seen);
+            readings_.add(light, {batch.key.derived(BatchStream::patch_readings)}, i, seen);
         }
         for (std::size_t j = 0; j < seen.sum.size(); ++j)
             sums.add(j, seen.sum[j] * double{kParticlesPerEvaluation});

@@ -158,9 +158,9 @@ class Radiosity final : public Estimator {
     }
 
     std::string_view technique() const override { return kRadiosity; }
-    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+    void run_batch(const Batch& batch, Tally& sums) const override {
         for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i) {
-            readings_.add(solution_.light, {batch.key.key}, i, sums);
+            readings_.add(solution_.light, {batch.key.derived(BatchStream::patch_readings)}, i, sums);
         }
     }
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }

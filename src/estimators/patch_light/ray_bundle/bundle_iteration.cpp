@@ -82,7 +82,8 @@ BundleIteration::BundleIteration(const PatchTransport& transport, std::vector<Bu
       glossy_receiving_(glossy_received_.size()) {}
 
 void BundleIteration::step() {
-    math::SampleStream stream(key_.derived(Stream::points), shuffled(steps_++, key_.derived(Stream::order)), kDimensions);
+    math::SampleStream stream(key_.derived(Stream::points), shuffled(steps_++, key_.derived(Stream::order)),
+                              kDimensions);
     const auto [u1, u2] = stream.next_two();
     const Frame frame = random_frame(u1, u2, stream.next());
     std::ranges::fill(receiving_, FloatRgb{});

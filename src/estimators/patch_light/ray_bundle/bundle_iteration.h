@@ -45,7 +45,8 @@ class BundleIteration final : public PatchLight {
     /// Starts from darkness. The steps depend on the key alone. All light together:
     BundleIteration(const PatchTransport& transport, math::KeyOf<Stream> key);
     /// Each source apart, along the same rays. More than one needs light that is stored (or no first shot).
-    BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources, math::KeyOf<Stream> key);
+    BundleIteration(const PatchTransport& transport, std::vector<BundleSource> sources,
+                    math::KeyOf<Stream> key);
 
     void step();
 

@@ -40,7 +40,7 @@ class RayBundle final : public Estimator {
     }
 
     std::string_view technique() const override { return kRayBundle; }
-    void run_batch(const Batch& batch, ReadingSums& sums) const override {
+    void run_batch(const Batch& batch, Tally& sums) const override {
         BundleIteration iteration(transport_, {batch.key.derived(BatchStream::walk).derived(batch.first)});
         const auto step = [&] {
             monitor_.require_more();

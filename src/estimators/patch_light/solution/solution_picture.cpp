@@ -41,7 +41,7 @@ class SolutionPicture final : public Estimator {
 
     // There are no readings.
     std::string_view technique() const override { return "solution"; }
-    void run_batch(const Batch&, ReadingSums&) const override {}
+    void run_batch(const Batch&, Tally&) const override {}
     std::span<const Rgb> known_part() const override { return {}; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return {}; }
     std::uint64_t batch_granularity() const override { return 1; }

@@ -1,0 +1,74 @@
+// What a run of readings decides before its samples count, and the sums that it has reached: values that
+// another run continues, in parts or at another time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "base/bytes.h"
+#include "estimators/tally.h"
+#include "run/options.h"
+#include "sensors/sensor.h"
+
+namespace stilb::run {
+
+/// Runs of one plan add the same sums, whatever ends them, and also where each makes a part of them.
+struct RunPlan {
+    std::string technique;  ///< Estimator::technique()
+    std::uint64_t seed = 1;
+    std::size_t replicates = 32;
+    bool pools_errors = false;  ///< of readings side by side
+    bool has_paces = false;     ///< packets that are sure enough take fewer samples (paces.h)
+    /// Parts of a replicate's samples with sums of their own, so that there is work for many threads.
+    std::size_t strands = 1;
+    std::uint64_t unit = 1;         ///< samples of a replicate are a multiple of this
+    std::uint64_t first_check = 1;  ///< samples of a replicate before the first error estimate
+    std::uint64_t most_at_once = 1;
+    /// Of each replicate the paces of its packets. Empty before they are decided.
+    std::vector<std::vector<estimators::Pace>> paces;
+
+    /// Few replicates where all sensors are large grids: the points of a replicate then lie more evenly, and
+    /// neighbours help with the errors (statistics/pooled_errors.h).
+    static RunPlan of(std::span<const Sensor> sensors, const RunOptions& options, bool lights_patches);
+
+    /// Whether all is decided: a part of a run cannot see what decides the paces.
+    bool is_complete() const { return !technique.empty() && (!has_paces || !paces.empty()); }
+    std::size_t units() const { return replicates * strands; }
+    /// Rounded up to a number of samples of a replicate that its strands can share.
+    std::uint64_t in_units(std::uint64_t samples) const { return (samples + unit - 1) / unit * unit; }
+
+    void write(ByteWriter& bytes) const;
+    static RunPlan read(ByteReader& bytes);
+    bool operator==(const RunPlan&) const = default;
+};
+
+/// The strands number `number`, `number` + `of`, `number` + 2 `of` ... of a run, counted over all replicates.
+struct RunPart {
+    std::size_t number = 0, of = 1;
+
+    bool has(std::size_t strand) const { return strand % of == number; }
+};
+
+/// Where a run has got to.
+struct RunState {
+    RunPlan plan;
+    std::vector<estimators::Tally> tallies;  ///< of the strands, replicate by replicate; or none
+
+    /// Adds the strands that another part of the run has made. Throws std::invalid_argument for a run of
+    /// another plan, and where both have made the same strand.
+    void merge(RunState part);
+
+    void write(ByteWriter& bytes) const;
+    static RunState read(ByteReader& bytes);
+};
+
+}  // namespace stilb::run
+
+namespace stilb {
+using run::RunPart;
+using run::RunPlan;
+using run::RunState;
+}  // namespace stilb
