@@ -68,6 +68,7 @@ struct Summary {
     bool converged = true;
     double attained_error = 0;
     std::vector<std::string> warnings;
+    std::vector<std::string> warning_kinds;  ///< of each: "holes", "rare-light" ... (docs/warnings.md)
 };
 
 struct Result : Summary {

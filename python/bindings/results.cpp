@@ -81,7 +81,8 @@ void add_summary(nb::module_& module) {
         .def_ro("elapsed_s", &Summary::elapsed_s)
         .def_ro("converged", &Summary::converged)
         .def_ro("attained_error", &Summary::attained_error)
-        .def_ro("warnings", &Summary::warnings);
+        .def_ro("warnings", &Summary::warnings)
+        .def_ro("warning_kinds", &Summary::warning_kinds);
 }
 
 void add_readings(nb::module_& module) {

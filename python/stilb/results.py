@@ -93,6 +93,11 @@ class Run:
         """The warnings about the scene and about the result."""
         return self._run.warnings
 
+    @property
+    def warning_kinds(self) -> list[str]:
+        """The kind of each warning, such as "holes" or "rare-light", for programs: sentences may change."""
+        return self._run.warning_kinds
+
     def _ending(self) -> str:
         return f"{self.method}, {self.paths} paths in {self.elapsed_s:.2f} s, error {100 * self.error:.2g} %"
 

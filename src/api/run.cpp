@@ -9,6 +9,7 @@
 
 #include "api/scene_data.h"
 #include "base/version.h"
+#include "base/warning.h"
 #include "io/image/picture_file.h"
 #include "io/results/results_writer.h"
 #include "io/results/solution_file.h"
@@ -50,7 +51,7 @@ Triple triple(const Vec3& v) { return {v.x, v.y, v.z}; }
 
 Estimate estimate(const statistics::Estimate& e) { return {e.value, e.standard_error, e.lower, e.upper}; }
 
-Summary summary(const RunSummary& run, const std::vector<std::string>& scene_warnings) {
+Summary summary(const RunSummary& run, std::span<const Warning> of_file) {
     Summary summary{.method = run.method,
                     .technique = run.technique,
                     .seed = run.seed,
@@ -59,8 +60,14 @@ Summary summary(const RunSummary& run, const std::vector<std::string>& scene_war
                     .elapsed_s = run.elapsed_s,
                     .converged = run.converged,
                     .attained_error = run.attained_error,
-                    .warnings = scene_warnings};
-    summary.warnings.insert(summary.warnings.end(), run.warnings.begin(), run.warnings.end());
+                    .warnings = {},
+                    .warning_kinds = {}};
+    for (const std::span<const Warning> all : {of_file, std::span<const Warning>(run.warnings)}) {
+        for (const Warning& warning : all) {
+            summary.warnings.push_back(warning.text);
+            summary.warning_kinds.emplace_back(warning.kind_name());
+        }
+    }
     return summary;
 }
 

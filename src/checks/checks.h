@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.h"
 #include "geometry/mesh_topology.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
@@ -184,8 +185,8 @@ std::vector<std::string> unit_warnings(const Scene& scene);
 
 /// The warnings of all checks, after those that the reader of the scene has given. `sensors`: those that are
 /// measured, or none.
-std::vector<std::string> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
+std::vector<Warning> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
                                         const Enclosures& enclosures, std::span<const Sensor> sensors,
-                                        std::vector<std::string> of_reader = {});
+                                        std::vector<Warning> of_reader = {});
 
 }  // namespace stilb::checks

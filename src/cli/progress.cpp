@@ -114,12 +114,14 @@ void LoadingProgress::show_until_the_end() {
     } while (!ended_.wait_for(lock, 100ms, [this] { return is_ended_; }));
 }
 
-void add_warnings(RunSummary& result, std::span<const std::string> of_file) {
+void put_first(std::span<const Warning> of_file, RunSummary& result) {
     result.warnings.insert(result.warnings.begin(), of_file.begin(), of_file.end());
 }
 
-void print_warnings(std::span<const std::string> warnings) {
-    for (const std::string& warning : warnings) write_message(fmt::format("warning: {}\n", warning));
+void print_warning(std::string_view sentence) { write_message(fmt::format("warning: {}\n", sentence)); }
+
+void print_warnings(std::span<const Warning> warnings) {
+    for (const Warning& warning : warnings) print_warning(warning.text);
 }
 
 const std::atomic<bool>& watch_for_interrupt() {

@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "base/monitor.h"
+#include "base/warning.h"
 #include "run/run.h"
 
 namespace stilb::cli {
@@ -82,8 +83,9 @@ class LoadingProgress {
 };
 
 /// Puts the warnings of a scene's file before those of a run.
-void add_warnings(RunSummary& result, std::span<const std::string> of_file);
-void print_warnings(std::span<const std::string> warnings);
+void put_first(std::span<const Warning> of_file, RunSummary& result);
+void print_warning(std::string_view sentence);
+void print_warnings(std::span<const Warning> warnings);
 
 /// The flag that is set by the first Ctrl-C after this call, by SIGTERM, and by SIGHUP (the terminal closes);
 /// a second Ctrl-C or SIGTERM ends the program at once.

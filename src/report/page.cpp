@@ -79,7 +79,7 @@ Html views(const Report& report) {
 Html warnings(const Report& report) {
     if (report.warnings.empty()) return element("p", "None.");
     Html items;
-    for (const std::string& warning : report.warnings) items += element("li", warning) + raw("\n");
+    for (const Warning& warning : report.warnings) items += element("li", warning.text) + raw("\n");
     return element("ul", {{"class", "warnings"}}, items);
 }
 

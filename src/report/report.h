@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/warning.h"
 #include "io/scene/scene_file.h"
 #include "run/options.h"
 #include "run/result.h"
@@ -33,7 +34,7 @@ struct Report {
     RunOptions options;  ///< of the readings
     std::optional<RunResult> readings;
     std::vector<View> views;
-    std::vector<std::string> warnings;  ///< of the file and of all runs
+    std::vector<Warning> warnings;  ///< of the file and of all runs
     bool lists_readings = false;        ///< all of them, at the end
 };
 

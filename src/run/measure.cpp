@@ -112,18 +112,21 @@ class ConcernedSensors {
 
     /// One sentence, if there are any: `sensor "desk": BEGINNING at 3 of 12 readings. END`, or
     /// `sensors "desk" (3 of 12 readings), "wall": BEGINNING. END`.
-    void warn(std::string_view beginning, std::string_view end, std::vector<std::string>& warnings) const {
+    void warn(std::string_view beginning, std::string_view end, std::vector<Warning>& warnings) const {
         if (names_.empty()) return;
+        const auto add = [&](std::string sentence) {
+            warnings.emplace_back(WarningKind::rare_light, std::move(sentence));
+        };
         if (names_.size() == 1) {
             const std::string at = shares_[0].empty() ? "" : " at " + shares_[0];
-            return warnings.push_back(fmt::format("sensor {}: {}{}. {}", names_[0], beginning, at, end));
+            return add(fmt::format("sensor {}: {}{}. {}", names_[0], beginning, at, end));
         }
         std::string list;
         for (std::size_t i = 0; i < names_.size(); ++i) {
             list += (i == 0 ? "" : ", ") + names_[i];
             if (!shares_[i].empty()) list += " (" + shares_[i] + ")";
         }
-        warnings.push_back(fmt::format("sensors {}: {}. {}", list, beginning, end));
+        add(fmt::format("sensors {}: {}. {}", list, beginning, end));
     }
 
   private:
@@ -149,7 +152,7 @@ struct RareLight {
         if (static_cast<double>(uncertain_readings) > tolerated) uncertain.add(sensor, uncertain_readings);
     }
 
-    void warn(std::uint64_t samples, std::vector<std::string>& warnings) const {
+    void warn(std::uint64_t samples, std::vector<Warning>& warnings) const {
         dark.warn(fmt::format("{} samples found no light", samples),
                   "If light gets there, the run needs more paths or more time to find it.", warnings);
         uncertain.warn("a few rare light paths make up much of the light, or of its error",
@@ -217,7 +220,7 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
     // Without lights all is dark; the scene reader warns of it.
     if (!scene.lights.empty()) rare_light.warn(campaign.samples_in_all(), result.warnings);
     result.power_density = power_density(result.power, sensors, estimates, confidence);
-    std::ranges::move(glare.warnings(scene, sensors, estimates), std::back_inserter(result.warnings));
+    add_warnings(WarningKind::glare, glare.warnings(scene, sensors, estimates), result.warnings);
     glare.rate(estimates, confidence);
     std::vector<SensorEstimates> deciding;
     if (has_looked) {
@@ -295,7 +298,7 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
     const std::vector<Sensor> sensors =
         with_units(checks::without_hidden_points(scene, session.caster(), given_sensors));
     const Wanted wanted(sensors);
-    std::vector<std::string> of_scene = session.scene_warnings(sensors);
+    std::vector<Warning> of_scene = session.scene_warnings(sensors);
     estimators::Problem problem = session.problem();
     problem.measurands = wanted.measurands;
     problem.weights = wanted.weights;
@@ -325,15 +328,12 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
     session.describe(*estimator, result);
     result.replicates = static_cast<int>(campaign.replicates());
     result.rays = campaign.rays();
-    const auto warn = [&](std::vector<std::string> more) {
-        std::ranges::move(more, std::back_inserter(result.warnings));
-    };
-    warn(std::move(of_scene));
+    std::ranges::move(of_scene, std::back_inserter(result.warnings));
     result.power = scene::installed_power(scene);
     result.rooms = power_of_rooms(scene, session.caster());
     if (part.of == 1) set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
-    warn(sharp_light_warnings(sharp, result.samples, scene));
-    warn(patch_error_warnings(result));
+    add_warnings(WarningKind::rare_light, sharp_light_warnings(sharp, result.samples, scene), result.warnings);
+    add_warnings(WarningKind::patches, patch_error_warnings(result), result.warnings);
     session.finish(result);
     result.scene_name = scene.name;
     state = campaign.take_state();

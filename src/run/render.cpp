@@ -96,7 +96,7 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
     constexpr double much = 0.5;
     result.patch_error = bias.at_most;
     if (kBiasesOfMostPixels * bias.at_most <= much * result.attained_error) return;
-    result.warnings.push_back(fmt::format(
+    result.warnings.emplace_back(WarningKind::patches, fmt::format(
         "path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
         "picture, whose light is stored on patches. The stated error of the pixels includes this, "
         "their standard errors do not. Choose smaller patches, or method auto, which needs none.",
@@ -109,7 +109,7 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
                        const std::atomic<bool>* interrupt) {
     const Camera& camera = *sensor.camera();
     Session session(scene, {&sensor, 1}, asked, options, sink, interrupt);
-    std::vector<std::string> of_scene = session.scene_warnings({&sensor, 1});
+    std::vector<Warning> of_scene = session.scene_warnings({&sensor, 1});
     const std::vector<bool> blind = sensors::blind_pixels(camera);
     RenderResult result;
     session.on_threads([&] {
@@ -158,7 +158,8 @@ RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& 
     RenderResult result = render_by({method.make, replicates, method.lights_patches}, scene, camera,
                                     asked_options, options, sink, interrupt);
     if (method.has_heavy_tails) {
-        result.warnings.push_back(
+        result.warnings.emplace_back(
+            WarningKind::method,
             fmt::format("method {} has infinite variance in corners: the standard errors of pixels there are "
                         "unreliable. Use method "
                         "auto.",

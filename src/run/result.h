@@ -10,6 +10,7 @@
 
 #include "base/rgb.h"
 #include "base/vec.h"
+#include "base/warning.h"
 #include "estimators/patch_light/patch_options.h"
 #include "scene/installed_power.h"
 #include "sensors/sensor.h"
@@ -61,7 +62,7 @@ struct RunSummary {
     std::vector<LevelOfDetail> levels_of_detail;
     /// The lowest and the highest maintenance factor of the lamps; nothing where none is below 1.
     std::optional<std::array<double, 2>> maintenance;
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
 };
 
 struct Reading {

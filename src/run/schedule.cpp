@@ -138,7 +138,7 @@ Session::Session(const Scene& scene, std::span<const Sensor> sensors, const RunO
       caster_(scene, monitor_, sensors::measured_points(sensors)),
       pool_(options.threads) {}
 
-std::vector<std::string> Session::scene_warnings(std::span<const Sensor> sensors) const {
+std::vector<Warning> Session::scene_warnings(std::span<const Sensor> sensors) const {
     monitor_.report("checks", 0);
     if (!options_.bounces) {
         if (const auto endless = checks::endless_light(scene_, caster_)) throw InputError(*endless);
@@ -167,7 +167,7 @@ void Session::run(Work& work, RunSummary& summary) {
 void Session::describe(const estimators::Estimator& estimator, RunSummary& summary) const {
     summary.technique = estimator.technique();
     summary.patches = estimator.patch_report();
-    summary.warnings = estimator.warnings();
+    add_warnings(WarningKind::method, estimator.warnings(), summary.warnings);
 }
 
 void Session::finish(RunSummary& summary) const {

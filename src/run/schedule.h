@@ -10,6 +10,7 @@
 
 #include "base/monitor.h"
 #include "base/parallel.h"
+#include "base/warning.h"
 #include "estimators/estimator.h"
 #include "run/options.h"
 #include "run/result.h"
@@ -118,7 +119,7 @@ class Session {
     const Monitor& monitor() const { return monitor_; }
     /// The warnings of all checks (checks/checks.h). They belong before the samples: so they count in the
     /// time limit.
-    std::vector<std::string> scene_warnings(std::span<const Sensor> sensors) const;
+    std::vector<Warning> scene_warnings(std::span<const Sensor> sensors) const;
     /// The problem without measurands and camera.
     estimators::Problem problem() const;
 

@@ -207,7 +207,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
     RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
     Session session(scene, {}, asked_options, options, progress, interrupt);
-    std::vector<std::string> of_scene = session.scene_warnings({});
+    std::vector<Warning> of_scene = session.scene_warnings({});
     if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;
     result.technique = kMethod;
@@ -221,7 +221,7 @@ SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degre
         result.solution = walks.last_solution();
     });
     result.replicates = static_cast<int>(kSolutionReplicates);
-    result.warnings = estimators::solution_warnings(scene);
+    add_warnings(WarningKind::method, estimators::solution_warnings(scene), result.warnings);
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);
     return result;

@@ -36,7 +36,7 @@ Model material_of(const SceneFile& file) {
 }
 
 bool warns_of(const SceneFile& file, std::string_view part) {
-    for (const std::string& warning : file.warnings)
+    for (const std::string& warning : texts_of(file.warnings))
         if (warning.find(part) != warning.npos) return true;
     return false;
 }

@@ -27,7 +27,7 @@ Vec3 front_of(const Mesh& mesh) {
 
 std::string joined_warnings(const SceneFile& file) {
     std::string text;
-    for (const std::string& warning : file.warnings) text += warning + "\n";
+    for (const std::string& warning : texts_of(file.warnings)) text += warning + "\n";
     return text;
 }
 

@@ -247,7 +247,7 @@ TEST_F(ImportTest, ObjSaysWhichUnitItChose) {
     write("room.mtl", std::string(kMtl));
     const SceneFile file = read_obj_scene(write("room.obj", room_in_obj()));
     std::string warnings;
-    for (const std::string& warning : file.warnings) warnings += warning + "\n";
+    for (const std::string& warning : texts_of(file.warnings)) warnings += warning + "\n";
     EXPECT_NE(
         warnings.find(
             "It is taken as 4 x 3 m large and 2.5 m high: scale = 0.01 (centimetres), because the model is "

@@ -89,7 +89,7 @@ TEST(RadianceLamps, GlowsAndIllums) {
         "a sphere sa 0 0 4 0 0 0 1\nb sphere sb 0 0 4 3 0 0 1\nc sphere sc 0 0 4 6 0 0 1\n");
     ASSERT_EQ(file.scene.lights.size(), 2u);
     EXPECT_EQ(file.scene.objects.size(), 3u);
-    EXPECT_EQ(file.warnings,
+    EXPECT_EQ(texts_of(file.warnings),
               (std::vector<std::string>{
                   "glow a: it lights nothing, because its radius is below 0. It is dark here.",
                   "illum c: it is seen as a lamp here; in Radiance it only casts its light."}));
@@ -130,7 +130,7 @@ TEST_P(RadianceLuminaires, HaveTheIntensitiesOfTheirFile) {
             EXPECT_NEAR(intensity, expected, rounding * of_file.peak_cd()) << polar << " " << plane;
         }
     }
-    EXPECT_EQ(file.warnings, std::vector<std::string>{});
+    EXPECT_TRUE(file.warnings.empty());
 }
 INSTANTIATE_TEST_SUITE_P(Files, RadianceLuminaires,
                          testing::Values("box", "cylinder", "ball", "half", "whole"),
@@ -142,10 +142,10 @@ TEST(RadianceLamps, SpotlightsWithAFocusAreWarnedOf) {
         read_rad("void spotlight beam 0 0 7 50 50 50 40 0 0 -2\nbeam ring r 0 0 8 0 0 3 0 0 -1 0 .1\n");
     ASSERT_EQ(file.warnings.size(), 1u);
     EXPECT_NE(
-        file.warnings[0].find("from a focus 2 m behind it, the length of its direction: 2 m away this is 4 "
+        file.warnings[0].text.find("from a focus 2 m behind it, the length of its direction: 2 m away this is 4 "
                               "times Radiance's illuminance"),
         std::string::npos)
-        << file.warnings[0];
+        << file.warnings[0].text;
 }
 
 TEST(RadianceLamps, SpotlightsEmitInTheirConeOnly) {
@@ -196,7 +196,7 @@ TEST(RadianceLamps, PatternsThatAreNotOfIes2radAreLeftOut) {
         "1 1 1\n"
         "l sphere s 0 0 4 0 0 0 1\n");
     EXPECT_EQ(
-        file.warnings,
+        texts_of(file.warnings),
         (std::vector<std::string>{
             "brightfunc dim: it is left out: l has the radiance of its own numbers.",
             "brightdata d: it is left out, and its factor is 1: only the functions of source.cal, which "
@@ -224,8 +224,8 @@ TEST(RadianceLamps, PolygonsThatLieTwiceShineOnce) {
         EXPECT_NEAR(flux_lm(twice.scene, twice.scene.lights[0]).luminance(),
                     flux_lm(once.scene, once.scene.lights[0]).luminance(), 1e-9);
         ASSERT_EQ(twice.warnings.size(), once.warnings.size() + 1);
-        EXPECT_NE(twice.warnings.back().find("copy: it lies where \"lamp\" does"), std::string::npos)
-            << twice.warnings.back();
+        EXPECT_NE(twice.warnings.back().text.find("copy: it lies where \"lamp\" does"), std::string::npos)
+            << twice.warnings.back().text;
         EXPECT_NEAR(illuminance(twice, {2, 1.5, 0.8}, {0, 0, 1}).value,
                     illuminance(once, {2, 1.5, 0.8}, {0, 0, 1}).value, 1e-6);
     }

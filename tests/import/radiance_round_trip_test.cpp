@@ -68,7 +68,7 @@ TEST(RadianceRoundTrip, KeepsAreasMaterialsAndFluxes) {
     export_scene(original, ExportFormat::radiance, folder);
     const SceneFile again = read_radiance_scene(folder / "scene.rad");
 
-    EXPECT_EQ(again.warnings, std::vector<std::string>{});
+    EXPECT_TRUE(again.warnings.empty());
     const auto flux_of = [](const SceneFile& file, std::string_view part) {
         for (const Light& light : file.scene.lights) {
             if (light.name.find(part) != light.name.npos)

@@ -113,7 +113,7 @@ TEST(SceneFile, ReadsARoom) {
     }
     ASSERT_EQ(scene.lights.size(), 2u);
     EXPECT_EQ(std::get<AreaLight>(scene.lights[0].source).object, ObjectId{3});
-    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0];
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0].text;
 }
 
 TEST(SceneFile, KeepsTheOrderOfTheFile) {
@@ -229,7 +229,7 @@ TEST(SceneFile, RefusesWrongRunOptions) {
 
 TEST(SceneFile, WarnsOfUnusedMaterialsAndOfDarkness) {
     const SceneFile file = read_scene_text("[materials.spare]\ntype = \"black\"");
-    EXPECT_EQ(file.warnings,
+    EXPECT_EQ(texts_of(file.warnings),
               (std::vector<std::string>{"s.toml:1: materials.spare: no object has this material.",
                                         "s.toml: no light: the scene is dark."}));
 }

@@ -268,7 +268,7 @@ TEST_F(ScenePhotometry, HangsStraightDownWithTheFilesFlux) {
     EXPECT_EQ(light_of(file).nadir, (Vec3{0, 0, -1}));
     EXPECT_LT(length(light_of(file).c0 - Vec3{1, 0, 0}), 1e-12);
     EXPECT_LT(length(light_of(file).c90 - Vec3{0, 1, 0}), 1e-12);
-    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0];
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0].text;
 }
 
 TEST_F(ScenePhotometry, AimSpinDimmingAndFlux) {
@@ -356,7 +356,7 @@ TEST_F(ScenePhotometry, LightsWithTheSameFileShareItsSolid) {
 TEST_F(ScenePhotometry, WarnsOfMoreFluxThanTheLampsHave) {
     const SceneFile file = read("file = \"too_much.ies\"");
     ASSERT_EQ(file.warnings.size(), 1u);
-    EXPECT_TRUE(file.warnings[0].starts_with("s.toml:4: lights.a.file: ")) << file.warnings[0];
+    EXPECT_TRUE(file.warnings[0].text.starts_with("s.toml:4: lights.a.file: ")) << file.warnings[0].text;
 }
 
 TEST_F(ScenePhotometry, RefusesABrokenFile) {

@@ -62,7 +62,7 @@ TEST_F(LuminaireBody, MovesAndTurnsWithItsLight) {
     EXPECT_LT(length(bounds.max - Vec3{1.3, 2.2, 3.1}), 1e-12);
     EXPECT_EQ(file.scene.materials[index_of(body.materials.front())].name, "trim");
     EXPECT_EQ(file.scene.materials[index_of(body.materials.back())].name, "white");
-    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0];
+    EXPECT_TRUE(file.warnings.empty()) << file.warnings[0].text;
     // Aimed along x and spun by a quarter turn: the body's x, C0, follows.
     const SceneFile aimed = read(
         "file = \"down.ies\"\nposition = [0, 0, 0]\naim = [1, 0, 0]\nspin = 90\ngeometry = \"housing.obj\"");

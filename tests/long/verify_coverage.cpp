@@ -97,7 +97,7 @@ struct Tally {
 
 /// A warning of the sensor, or of the whole run.
 bool is_warned(const RunResult& result, const std::string& sensor) {
-    return std::ranges::any_of(result.warnings, [&](const std::string& warning) {
+    return std::ranges::any_of(texts_of(result.warnings), [&](const std::string& warning) {
         return !warning.starts_with("sensor ") || warning.find('"' + sensor + '"') != std::string::npos;
     });
 }

@@ -99,7 +99,7 @@ void add_picture(Measured& measured, const Scene& scene, const Sensor& camera, R
         means.push_back(picture.mean_luminance_cd_m2);
         options.seed += 1'000'003;
         if (i > 0) continue;
-        std::ranges::copy(picture.warnings, std::back_inserter(measured.warnings));
+        std::ranges::move(texts_of(picture.warnings), std::back_inserter(measured.warnings));
     }
     add(measured, camera.name + " mean", statistics::estimate_from_replicates(means), kPictures, factor);
 }
@@ -133,7 +133,7 @@ Measured measure(const Draft& draft, const Setting& setting, const std::filesyst
         options.threads = 1;
         if (readings > 0) {
             const RunResult result = run::measure(file.scene, file.sensors, options);
-            measured.warnings = result.warnings;
+            measured.warnings = texts_of(result.warnings);
             for (const SensorResult& sensor : result.sensors) {
                 // The order of an area's points depends on the direction of its edges.
                 if (std::holds_alternative<Area>(sensor.sensor.kind)) {

@@ -74,7 +74,7 @@ TEST(DaylightGlareProbability, OfAWindowIsTheFormula) {
         const statistics::Estimate& rating = result.sensors.at(0).readings.at(0).estimate;
         EXPECT_NEAR(rating.value, exact, 0.002) << method << " " << window_illuminance_lx();
         EXPECT_LT(rating.upper - rating.lower, 0.02) << method;
-        EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+        EXPECT_TRUE(result.warnings.empty()) << result.warnings[0].text;
     }
 }
 
@@ -100,9 +100,9 @@ TEST(DaylightGlareProbability, SaysWhatItIsNotMadeFor) {
     add_point_light(scene, {1, 2, 2}, Rgb::grey(10));
     const run::RunResult result = rated(scene, Dgp{{kEye}});
     ASSERT_EQ(result.warnings.size(), 2u);
-    EXPECT_NE(result.warnings[0].find("is below 380 lx in 1 of 1 views"), std::string::npos)
-        << result.warnings[0];
-    EXPECT_NE(result.warnings[1].find("is missing from DGP"), std::string::npos) << result.warnings[1];
+    EXPECT_NE(result.warnings[0].text.find("is below 380 lx in 1 of 1 views"), std::string::npos)
+        << result.warnings[0].text;
+    EXPECT_NE(result.warnings[1].text.find("is missing from DGP"), std::string::npos) << result.warnings[1].text;
 }
 
 /// 380 lx under an even sky, which is no source.

@@ -61,7 +61,7 @@ TEST(UnifiedGlareRating, IsTheFormula) {
         EXPECT_LT(rating.standard_error, 0.1) << method;
         EXPECT_LT(rating.lower, rating.value);
         EXPECT_GT(rating.upper, rating.value);
-        EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+        EXPECT_TRUE(result.warnings.empty()) << result.warnings[0].text;
     }
 }
 
@@ -160,7 +160,7 @@ TEST(UnifiedGlareRating, LeavesOutLampsOutsideOfItsField) {
     ASSERT_EQ(eye.glare.at(0).sources.size(), 2u);
     EXPECT_EQ(eye.glare[0].sources[0].standing, run::GlareStanding::counted);
     EXPECT_EQ(eye.glare[0].sources[1].standing, run::GlareStanding::outside);
-    EXPECT_TRUE(result.warnings.empty()) << result.warnings[0];
+    EXPECT_TRUE(result.warnings.empty()) << result.warnings[0].text;
 }
 
 /// On the line of sight, where the position index is 1.
@@ -227,10 +227,10 @@ TEST(UnifiedGlareRating, SaysWhatItLeavesOut) {
     add_point_light(scene, {1, 2, 2}, Rgb::grey(10));
     add_area_light(scene, Sphere{{0, 4, 1.2}, 0.02}, Rgb::grey(1e6));
     const run::RunResult result = rated(scene, 1);
-    ASSERT_EQ(result.warnings.size(), 2u) << fmt::format("{}", fmt::join(result.warnings, "\n"));
-    EXPECT_NE(result.warnings[0].find("is less than 0.0003 sr"), std::string::npos) << result.warnings[0];
-    EXPECT_NE(result.warnings[1].find("a point has no luminous area"), std::string::npos)
-        << result.warnings[1];
+    ASSERT_EQ(result.warnings.size(), 2u) << fmt::format("{}", fmt::join(texts_of(result.warnings), "\n"));
+    EXPECT_NE(result.warnings[0].text.find("is less than 0.0003 sr"), std::string::npos) << result.warnings[0].text;
+    EXPECT_NE(result.warnings[1].text.find("a point has no luminous area"), std::string::npos)
+        << result.warnings[1].text;
 }
 
 TEST(UnifiedGlareRating, IsZeroWithoutALampInView) {

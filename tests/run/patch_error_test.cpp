@@ -61,8 +61,8 @@ TEST_P(PatchError, IsInTheIntervalsOfReadings) {
         EXPECT_GT(largest, 0.3 * *readings.patch_error) << patch_m;
         EXPECT_LT(largest, 3 * *readings.patch_error) << patch_m;
         ASSERT_FALSE(result.warnings.empty());
-        EXPECT_NE(result.warnings.back().find("smaller patches"), std::string::npos)
-            << result.warnings.back();
+        EXPECT_NE(result.warnings.back().text.find("smaller patches"), std::string::npos)
+            << result.warnings.back().text;
     }
 }
 
@@ -144,7 +144,7 @@ TEST(PatchErrorOfPictures, IsInTheStatedError) {
         EXPECT_LT(*result.patch_error, 1.5 * found);
         EXPECT_GT(result.attained_error, 2 * 0.7 * found);
         ASSERT_FALSE(result.warnings.empty());
-        EXPECT_NE(result.warnings[0].find("smaller patches"), std::string::npos) << result.warnings[0];
+        EXPECT_NE(result.warnings[0].text.find("smaller patches"), std::string::npos) << result.warnings[0].text;
     };
     const RenderResult by_patches = render(scene, view, options);
     expect_stated(by_patches);

@@ -347,7 +347,7 @@ TEST(Areas, RoomsWithoutLampsAreDark) {
     EXPECT_EQ(std::get<Area>(result.sensors.at(1).sensor.kind).left_out, 0U);
     EXPECT_EQ(result.sensors.at(1).readings.size(), 64U);
     EXPECT_EQ(result.sensors.at(1).summary.mean.value, 0);
-    EXPECT_TRUE(std::ranges::any_of(result.warnings, [](const std::string& warning) {
+    EXPECT_TRUE(std::ranges::any_of(texts_of(result.warnings), [](const std::string& warning) {
         return warning.find("sensor \"area\": 64 of 64 points lie") != std::string::npos;
     }));
 }
@@ -408,7 +408,7 @@ TEST(Areas, WhollyInABodyAreDark) {
     const RunResult result = measure(rated_room(), {&buried, 1}, rating_options("path"));
     EXPECT_EQ(result.sensors.at(0).summary.mean.value, 0);
     ASSERT_FALSE(result.warnings.empty());
-    EXPECT_NE(result.warnings[0].find("which contains no light"), std::string::npos) << result.warnings[0];
+    EXPECT_NE(result.warnings[0].text.find("which contains no light"), std::string::npos) << result.warnings[0].text;
 }
 
 }  // namespace

@@ -218,8 +218,8 @@ TEST(Solve, WarnsOfLightThatMirrorsBringFromPointsOnly) {
         const auto names_mirrors = [](const std::string& warning) {
             return warning.find("mirror") != warning.npos;
         };
-        const bool solution_warns = std::ranges::any_of(solved.warnings, names_mirrors);
-        EXPECT_EQ(std::ranges::any_of(picture.warnings, names_mirrors), solution_warns);
+        const bool solution_warns = std::ranges::any_of(texts_of(solved.warnings), names_mirrors);
+        EXPECT_EQ(std::ranges::any_of(texts_of(picture.warnings), names_mirrors), solution_warns);
         return solution_warns;
     };
     EXPECT_TRUE(warns_of_mirrors());

@@ -49,7 +49,7 @@ TEST(PlacedSensors, AreReadBackAsTheyWere) {
         {});
     const io::SceneFile file = io::read_scene(kPlacedRoom + to_toml(placed), "s.toml", ".");
     ASSERT_EQ(file.sensors.size(), 3u);
-    EXPECT_EQ(file.warnings, std::vector<std::string>{});
+    EXPECT_TRUE(file.warnings.empty());
     for (std::size_t i = 0; i < placed.size(); ++i) {
         EXPECT_EQ(file.sensors[i].name, placed[i].name);
         EXPECT_EQ(file.sensors[i].type(), placed[i].type());

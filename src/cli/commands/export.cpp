@@ -27,7 +27,7 @@ int run_export(const ExportRequest& request) {
     const io::ExportReport report = io::export_scene(file, format, request.output);
     if (!request.quiet) {
         print_warnings(file.warnings);
-        print_warnings(report.warnings);
+        for (const std::string& warning : report.warnings) print_warning(warning);
     }
     fmt::print("{}: {} files for {}\n", request.output, report.files.size(), request.format);
     return kExitDone;

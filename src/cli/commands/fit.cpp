@@ -90,7 +90,7 @@ int run_fit(const FitRequest& request) {
     report.mesh_bytes = std::filesystem::file_size(request.mesh);
     if (!request.plot.empty()) draw_plot(error_plot(report), request.plot);
     if (!request.quiet) {
-        print_warnings(warnings_of(report));
+        for (const std::string& warning : warnings_of(report)) print_warning(warning);
     }
     fmt::print(messages_beside(request.output), "{}", request.json ? to_json(report) : to_text(report));
     return kExitDone;

@@ -138,7 +138,7 @@ int run_measure(const MeasureRequest& request) {
         result = run::measure(file.scene, sensors, options, flags.run.quiet ? nullptr : &progress,
                               &watch_for_interrupt());
     }
-    add_warnings(result, file.warnings);
+    put_first(file.warnings, result);
     Outputs outputs;
     write_files(result, request, outputs);  // before all messages: the terminal may be closed by now
     if (!flags.run.quiet) print_warnings(result.warnings);

@@ -228,7 +228,7 @@ void take_first_look(RenderRequest& request, io::SceneFile& file) {
     for (int& size : camera.resolution) size = std::max(1, static_cast<int>(std::lround(scale * size)));
     file.scene = with_headlight(std::move(file.scene), camera);
     file.sensors = {sensor};
-    std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(io::kNoLight); });
+    std::erase_if(file.warnings, is_of(WarningKind::no_light));
     file.run.method = "path";
     file.run.error.reset();
     file.run.time_s.reset();
@@ -266,7 +266,7 @@ int run_render(RenderRequest request) {
     origin.version = program_version();
     RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
     if (request.is_first_look) result.warnings.clear();  // of a scene without its lamps
-    add_warnings(result, file.warnings);
+    put_first(file.warnings, result);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
     // The files come before all messages: the terminal may be closed by now.
     Outputs outputs;

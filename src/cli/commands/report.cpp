@@ -81,8 +81,8 @@ RunOptions view_options(const ReportRequest& request, const RunOptions& of_readi
     return with_picture_reserve(std::move(options), camera.resolution);
 }
 
-void add_new(const std::vector<std::string>& more, std::vector<std::string>& warnings) {
-    for (const std::string& warning : more) {
+void add_new(std::span<const Warning> more, std::vector<Warning>& warnings) {
+    for (const Warning& warning : more) {
         if (std::ranges::find(warnings, warning) == warnings.end()) warnings.push_back(warning);
     }
 }
@@ -113,8 +113,9 @@ class Reporting {
             add_new(result.warnings, report_.warnings);
         } catch (const Cancelled& cancelled) {
             lacks_views_ = true;
-            add_new({fmt::format("camera \"{}\": no picture: {}", camera.name, cancelled.what())},
-                    report_.warnings);
+            report_.warnings.emplace_back(
+                WarningKind::missing_view,
+                fmt::format("camera \"{}\": no picture: {}", camera.name, cancelled.what()));
         }
     }
 

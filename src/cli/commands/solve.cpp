@@ -58,7 +58,7 @@ int run_solve(const SolveRequest& request) {
         result = solve(file.scene, options, request.degree.value_or(run::kDefaultDegree),
                        request.flags.quiet ? nullptr : &progress, &watch_for_interrupt());
     }
-    add_warnings(result, file.warnings);
+    put_first(file.warnings, result);
     const io::StoredSolution solution =
         io::stored_solution(result, std::move(result.solution), file, request.output);
     // Before all messages: the terminal may be closed by now.

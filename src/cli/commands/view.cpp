@@ -108,8 +108,9 @@ void take_first_look(const ViewRequest& request, Input& input) {
     if (std::ranges::none_of(file.sensors, [](const Sensor& sensor) { return sensor.camera() != nullptr; }))
         file.sensors.push_back(sensors::camera_for_first_look(file.scene, caster));
     file.scene.lights = sensors::lights_for_first_look(file.scene, caster);
-    std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(io::kNoLight); });
+    std::erase_if(file.warnings, is_of(WarningKind::no_light));
     file.warnings.emplace_back(
+        WarningKind::first_look,
         "the scene has no light: for a first look, a bulb in each room, one outside and an even sky light "
         "it. "
         "Its illuminances and luminances are not those of any lamps.");

@@ -134,8 +134,8 @@ ImportedScene::ImportedScene(const std::filesystem::path& path) {
     file.scene.name = as_utf8(path.stem().string());
 }
 
-void ImportedScene::note(std::string_view sentence) {
-    file.warnings.emplace_back(InputError(std::string(sentence), {file.sources.front().string()}).what());
+void ImportedScene::note(std::string_view sentence, WarningKind kind) {
+    file.warnings.emplace_back(kind, InputError(std::string(sentence), {file.sources.front().string()}).what());
 }
 
 void ImportedScene::remark_mean_texture(std::string_view material) {
@@ -277,7 +277,7 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
     scene::put_lamps_in_front(file.scene);
     settings.scale_lights(file);
     warn_of_units();
-    if (file.scene.lights.empty()) note(kNoLight);
+    if (file.scene.lights.empty()) note(kNoLight, WarningKind::no_light);
     const std::string prefix = file.sources[0].string() + ": ";
     for (const std::string& warning : warnings.list()) file.warnings.push_back(prefix + warning);
     settings.apply_to(file);

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/warning.h"
 #include "io/import/import_settings.h"
 #include "io/import/textures/textured_surfaces.h"
 #include "io/scene/scene_file.h"
@@ -62,7 +63,7 @@ class ImportedScene {
     /// Says among the notes that the texture of a material counts by its mean.
     void remark_mean_texture(std::string_view material);
     /// Adds a sentence about the scene as a whole to its warnings.
-    void note(std::string_view sentence);
+    void note(std::string_view sentence, WarningKind kind = WarningKind::file);
     MaterialId add_material(std::string_view name, const Material& material);
     /// Makes all faces of a material shine.
     void set_emission(MaterialId material, const Emission& emission) { emissions_[material] = emission; }

@@ -32,7 +32,7 @@ std::string heading(const SceneFile& file) {
     std::string text = fmt::format("{} from {}.\n# Keys and values: docs/scene-format.md\n", kSceneMark,
                                    file.sources.front().filename().string());
     if (!file.warnings.empty()) text += "#\n# Warnings of the import:\n";
-    for (const std::string& warning : file.warnings) text += commented(warning);
+    for (const Warning& warning : file.warnings) text += commented(warning.text);
     return text;
 }
 

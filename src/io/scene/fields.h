@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "base/field.h"
+#include "base/warning.h"
 #include "io/scene/sections.h"
 #include "io/scene/toml.h"
 #include "sensors/fields.h"
@@ -76,7 +77,7 @@ Parameters read_typed_fields(TomlTable& table, std::string_view type) {
 /// The context for reading a table; warnings are for values that are unusual but not wrong.
 struct FieldSource {
     const TomlTable& table;
-    std::vector<std::string>& warnings;
+    std::vector<Warning>& warnings;
 };
 
 using Keys = std::vector<std::string_view>;
@@ -258,7 +259,7 @@ Keys sensor_keys() {
 
 /// Reads a sensor of this kind, and checks its keys one by one and together.
 template <typename Kind>
-Kind read_by_fields(TomlTable& table, std::vector<std::string>& warnings) {
+Kind read_by_fields(TomlTable& table, std::vector<Warning>& warnings) {
     table.expect_keys(sensor_keys<Kind>(), "type \"" + std::string(Kind::kType) + "\"");
     Kind kind;
     for_each_field<Kind>([&](const auto& field) { read_field(field, FieldSource{table, warnings}, kind); });

@@ -32,7 +32,7 @@ void add_mesh_warnings(const std::string& where, const MeshFile& mesh, SceneFile
     for (const std::string& sentence : mesh_warnings(mesh)) {
         std::string warning = fmt::format("{}: {}", where, sentence);
         // Bodies of several luminaires have the same.
-        if (std::ranges::find(file.warnings, warning) == file.warnings.end())
+        if (std::ranges::find(file.warnings, Warning(warning)) == file.warnings.end())
             file.warnings.push_back(std::move(warning));
     }
 }

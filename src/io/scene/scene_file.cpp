@@ -109,7 +109,7 @@ std::vector<TomlItem> read_list(const TomlItem& list, std::string_view what) {
     return items;
 }
 
-Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings) {
+Vec3 read_direction(const TomlItem& item, std::vector<Warning>& warnings) {
     const Vec3 given = item.vector();
     const Vec3 normal = item.made_unit(given);
     constexpr double rounding = 1e-3;  // three digits are enough to say that a unit vector is meant
@@ -205,9 +205,9 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     warn_of_unused_materials(materials, first_material, file);
     std::ranges::move(scene::settle_glass(file.scene), std::back_inserter(file.warnings));
     scene::put_lamps_in_front(file.scene);
-    std::erase_if(file.warnings, [](const std::string& warning) { return warning.ends_with(kNoLight); });
+    std::erase_if(file.warnings, is_of(WarningKind::no_light));
     if (file.scene.lights.empty())
-        file.warnings.emplace_back(InputError(std::string(kNoLight), {name}).what());
+        file.warnings.emplace_back(WarningKind::no_light, InputError(std::string(kNoLight), {name}).what());
     read_sensors(sensors, defaults("sensors", sensor_types()), file);
     return file;
 }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "base/monitor.h"
+#include "base/warning.h"
 #include "io/scene/toml.h"
 #include "run/options.h"
 #include "scene/scene.h"
@@ -28,7 +29,7 @@ struct SceneFile {
     std::vector<std::string> notes = {};
     /// Unusual but valid contents (degenerate triangles dropped, normals normalised, ...), for `info` and
     /// stderr.
-    std::vector<std::string> warnings;
+    std::vector<Warning> warnings;
     /// Contents of luminaire files that are parts of the scene's file, by NamedSolid::file: `import` writes
     /// them as files of their own.
     std::map<std::string, std::string> embedded_luminaires;

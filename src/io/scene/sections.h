@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "base/warning.h"
 #include "geometry/transform.h"
 #include "io/scene/defaults.h"
 #include "io/scene/mesh_parts.h"
@@ -64,7 +65,7 @@ geometry::Transform read_transform(const TomlTable& object);
 /// The elements of a list of triples, each a `what`.
 std::vector<TomlItem> read_list(const TomlItem& list, std::string_view what);
 /// A direction as a unit vector, with a warning where its length was far from 1.
-Vec3 read_direction(const TomlItem& item, std::vector<std::string>& warnings);
+Vec3 read_direction(const TomlItem& item, std::vector<Warning>& warnings);
 /// The keys file or coefficients, degree, intersection, lod. The centre comes from the file; with
 /// coefficients it is the origin.
 Harmonics read_harmonic_shape(const TomlTable& table, const std::filesystem::path& directory,

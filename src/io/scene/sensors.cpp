@@ -14,7 +14,7 @@
 namespace stilb::io {
 namespace {
 
-using Warnings = std::vector<std::string>;
+using Warnings = std::vector<Warning>;
 
 std::vector<Vec3> read_directions(const TomlItem& list, Warnings& warnings) {
     std::vector<Vec3> directions;
@@ -245,7 +245,7 @@ void read_sensors(const TomlTable& section, const Defaults& defaults, SceneFile&
             sensor.requirements = read_requirements(table, sensor);
             add_bands(table, Sensor(sensor), building, file.sensors, warnings);
         }
-        for (std::string& warning : warnings) {
+        for (Warning& warning : warnings) {
             const bool is_new = std::ranges::find(file.warnings, warning) == file.warnings.end();
             if (is_new) file.warnings.push_back(std::move(warning));  // several positions have the same
         }

@@ -69,10 +69,10 @@ class Assembly {
         add_sky();
         for (const std::string& file : description_.files) file_.sources.emplace_back(file);
         file_.sources.insert(file_.sources.end(), tables_.begin(), tables_.end());
-        file_.warnings = description_.warnings;
+        file_.warnings.assign(description_.warnings.begin(), description_.warnings.end());
         for (std::string& warning : warnings_.list()) file_.warnings.push_back(std::move(warning));
         if (file_.scene.lights.empty())
-            file_.warnings.emplace_back(InputError(std::string(kNoLight), {description_.files[0]}).what());
+            file_.warnings.emplace_back(WarningKind::no_light, InputError(std::string(kNoLight), {description_.files[0]}).what());
         file_.notes.push_back(fmt::format(
             "Radiance: lengths in m; luminances are {:g} lm/W times {:g} R + {:g} G + {:g} B "
             "(docs/radiance.md)",
