@@ -55,7 +55,7 @@ class MadeUpPicture final : public estimators::Estimator {
                 const int y = block.top + static_cast<int>(i) / block.width;
                 picture_.numbers_[{pass_.replicate, x, y}].push_back(pass_.index);
                 const auto pixel = static_cast<std::uint64_t>(1000 * y + x);
-                const double u = math::SampleStream(pass_.key.derived(pixel), pass_.index, 0).next();
+                const double u = math::SampleStream(pass_.key.key.derived(pixel), pass_.index, 0).next();
                 pixels[i] = Rgb::grey(picture_.luminance_(pass_, x, u));
             }
             return {};

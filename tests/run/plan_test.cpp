@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -58,11 +59,18 @@ std::vector<double> numbers_of(const RunResult& result) {
     return numbers;
 }
 
+RunOptions options_of(const char* method, std::optional<std::uint64_t> paths) {
+    RunOptions options;
+    options.method = method;
+    options.paths = paths;
+    return options;
+}
+
 class RunOfPlan : public testing::TestWithParam<PlanCase> {
   protected:
     Scene scene_ = lit_room();
     Sensor sensor_ = floor_grid(GetParam().points);
-    RunOptions options_{.method = GetParam().method, .paths = GetParam().paths, .seed = 7};
+    RunOptions options_ = options_of(GetParam().method, GetParam().paths);
 
     RunResult run(const RunOptions& options, RunState* state, ProgressSink* sink = nullptr,
                   const std::atomic<bool>* interrupt = nullptr) const {
@@ -130,7 +138,7 @@ TEST(RunState, RefusesWhatDoesNotFit) {
     const Scene scene = lit_room();
     const Sensor sensor = floor_grid(2), other = floor_grid(3);
     RunState state;
-    const RunOptions options{.method = "light-paths", .paths = 1 << 15};
+    const RunOptions options = options_of("light-paths", 1 << 15);
     measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state);
     RunState of_other_seed = state;
     of_other_seed.plan.seed = 8;
@@ -140,7 +148,7 @@ TEST(RunState, RefusesWhatDoesNotFit) {
     RunState elsewhere = state;
     EXPECT_THROW(measure(scene, {&other, 1}, options, nullptr, nullptr, &elsewhere), std::invalid_argument);
     RunState part{state.plan, {}};
-    EXPECT_THROW(measure_part(scene, {&sensor, 1}, {.error = 0.1}, {0, 2}, part), InputError);
+    EXPECT_THROW(measure_part(scene, {&sensor, 1}, options_of("auto", {}), {0, 2}, part), InputError);
     const std::string bytes = bytes_of(state);
     for (const std::size_t size : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1})
         EXPECT_THROW(state_of(bytes.substr(0, size)), InputError) << size;
@@ -150,7 +158,7 @@ TEST(RunState, OfAGridIsCompleteFromThePacesOn) {
     const Scene scene = lit_room();
     const Sensor sensor = floor_grid(8);
     RunState state;
-    RunOptions options{.method = "guided", .paths = 8};
+    RunOptions options = options_of("guided", 8);
     measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state);
     EXPECT_FALSE(state.plan.is_complete());
     RunState part{state.plan, {}};
