@@ -40,6 +40,8 @@ inline constexpr std::array<std::string_view, 19> kWarningKindNames{
     "lamps",      "placement",  "facing", "reach",    "unlit",     "absorption", "method",
     "patches",    "rare-light", "glare",  "first-look", "missing-view"};
 
+static_assert(kWarningKindNames.size() == static_cast<std::size_t>(WarningKind::missing_view) + 1);
+
 struct Warning {
     WarningKind kind = WarningKind::file;
     std::string text;
@@ -61,6 +63,12 @@ inline auto is_of(WarningKind kind) {
 inline void add_warnings(WarningKind kind, std::vector<std::string> sentences,
                          std::vector<Warning>& warnings) {
     for (std::string& sentence : sentences) warnings.emplace_back(kind, std::move(sentence));
+}
+
+inline std::vector<std::string_view> kind_names_of(std::span<const Warning> warnings) {
+    std::vector<std::string_view> names;
+    for (const Warning& warning : warnings) names.push_back(warning.kind_name());
+    return names;
 }
 
 inline std::vector<std::string> texts_of(std::span<const Warning> warnings) {

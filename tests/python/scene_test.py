@@ -93,6 +93,8 @@ class SceneFiles(unittest.TestCase):
         np.testing.assert_allclose(result["spot"].value, 100 / 2**2, rtol=1e-6)  # nothing reflects from above
         np.testing.assert_allclose(result["floor"].value, 100 / 3**2 * 0.5 / np.pi, rtol=1e-6)
         self.assertFalse(any("dark" in warning for warning in result.warnings))
+        self.assertEqual(len(result.warning_kinds), len(result.warnings))
+        self.assertNotIn("no-light", result.warning_kinds)
         with self.assertRaisesRegex(stilb.InputError, "stilb import"):
             scene.save(self.folder / "floor.toml")
 

@@ -293,6 +293,16 @@ class MeasureTest(CommandLineTest):
         self.assertRegex(run(*arguments).stderr, r"^warning: .*spare")
         self.assertEqual(run(*arguments, "--quiet").stderr, "")
 
+    def test_warnings_have_kinds(self):
+        before, after = ROOM.split("[lights.bulb]")
+        scene = self.write("dark.toml", before + "[sensors" + after.split("[sensors", 1)[1])
+        result = json.loads(run("measure", scene, "--paths", "64", "--json", "--quiet").stdout)
+        self.assertEqual(len(result["warnings"]), len(result["warning_kinds"]))
+        of_dark = result["warning_kinds"].index("no-light")
+        self.assertIn("no light: the scene is dark", result["warnings"][of_dark])
+        lit = json.loads(run("measure", self.write("lit.toml", ROOM), "--paths", "64", "--json", "--quiet").stdout)
+        self.assertNotIn("no-light", lit["warning_kinds"])
+
 
 if __name__ == "__main__":
     unittest.main()

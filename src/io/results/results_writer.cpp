@@ -312,7 +312,7 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
               {"attained_error", result.attained_error}};
     if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
     json["warnings"] = texts_of(result.warnings);
-    for (const Warning& warning : result.warnings) json["warning_kinds"].push_back(warning.kind_name());
+    json["warning_kinds"] = kind_names_of(result.warnings);
     if (result.maintenance) json["maintenance"] = *result.maintenance;
     if (result.power.has_lamps()) json["power"] = power_json(result);
     if (result.patches) {

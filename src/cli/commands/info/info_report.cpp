@@ -242,7 +242,7 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name, cons
     const std::vector<Warning> warnings =
         checks::scene_warnings(file.scene, caster, enclosures, sensors, file.warnings);
     json["warnings"] = texts_of(warnings);
-    for (const Warning& warning : warnings) json["warning_kinds"].push_back(warning.kind_name());
+    json["warning_kinds"] = kind_names_of(warnings);
     json["memory"] = {{"meshes_bytes", mesh_bytes(scene)},
                       {"peak_bytes", peak_resident_bytes()},
                       {"readings_bytes", run::memory_of_readings_bytes(sensors, file.run)}};
