@@ -8,7 +8,7 @@
 namespace nb = nanobind;
 
 NB_MODULE(_stilb, module) {
-    module.attr("version") = program_version();
+    module.attr("version") = stilb::program_version();
     nb::exception<stilb::InputError>(module, "InputError", PyExc_ValueError).attr("__doc__") =
         "An error in the input. The message says what is wrong, where, and what would be right.";
     nb::exception<stilb::Cancelled>(module, "Cancelled", PyExc_RuntimeError).attr("__doc__") =
