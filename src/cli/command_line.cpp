@@ -212,6 +212,10 @@ Flag& Flag::show_default() {
     return *this;
 }
 
+Flag& Flag::hidden() { return heading(""); }
+
+void Command::set_footer(const std::string& text) { app_->footer(text); }
+
 void Command::set_examples(const std::string& examples) {
     app_->formatter_fn([examples](const CLI::App* app, std::string name, CLI::AppFormatMode mode) {
         return "Examples:\n" + examples + "\n" + CLI::Formatter().make_help(app, std::move(name), mode);
@@ -267,22 +271,35 @@ Command CommandLine::add_command(const std::string& name, const std::string& sum
 }
 
 void CommandLine::add_help() {
-    Command command = add_command("help", "Print this help, or that of a command");
+    Command command = add_command("help", "Print this help, that of a command, or of the flags of patches");
     command.set_examples(
         "  stilb help\n"
-        "  stilb help measure\n");
+        "  stilb help measure\n"
+        "  stilb help patches\n");
     auto name = std::make_shared<std::string>();
-    command.add("COMMAND", *name, "Command to explain (default: all in short)");
+    command.add("COMMAND", *name, "Command or topic to explain (default: all in short)");
     command.run([this, name] {
         print_help(*name);
         return kExitDone;
     });
 }
 
+Command CommandLine::add_topic(const std::string& name, const std::string& text) {
+    CLI::App& topic = *topics_.emplace_back(std::make_unique<CLI::App>("", name));
+    topic.set_help_flag();
+    topic.formatter_fn([text](const CLI::App* app, std::string, CLI::AppFormatMode mode) {
+        return text + "\n" + CLI::Formatter().make_groups(app, mode);
+    });
+    return Command(topic, exit_code_);
+}
+
 void CommandLine::print_help(const std::string& command) const {
     const CLI::App* about = app_.get();
     std::string program = "stilb";
-    if (!command.empty()) {
+    const auto topic = std::ranges::find(topics_, command, [](const auto& t) { return t->get_name(); });
+    if (topic != topics_.end()) {
+        about = topic->get();
+    } else if (!command.empty()) {
         const auto named = app_->get_subcommands([&](CLI::App* c) { return c->get_name() == command; });
         if (named.empty()) throw no_command(*app_, command);
         about = named.front();

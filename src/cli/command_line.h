@@ -41,6 +41,8 @@ class Flag {
     Flag& optional_value(const std::string& otherwise);
     /// --help shows the present value of the variable as the default.
     Flag& show_default();
+    /// --help does not show the flag: a topic does (CommandLine::add_topic()).
+    Flag& hidden();
 
   private:
     CLI::Option* option_;
@@ -57,6 +59,8 @@ class Command {
     /// std::string, int, double, std::uint64_t, std::optional of these, std::vector<std::string>.
     template <typename T>
     Flag add(const std::string& names, T& value, const std::string& description);
+    /// The last line of --help.
+    void set_footer(const std::string& text);
     /// A flag without a value that calls `set`.
     void add_switch(const std::string& names, std::function<void()> set, const std::string& description);
     /// Finds a flag that was added before.
@@ -80,6 +84,9 @@ class CommandLine {
     Command add_command(const std::string& name, const std::string& summary);
     /// Adds the command `help`, after the commands that precede it in the list of commands.
     void add_help();
+    /// Adds a page of `help` on flags that several commands have: `text`, and what is added to the command
+    /// returned. It cannot be run. Its variables must outlive the parsing.
+    Command add_topic(const std::string& name, const std::string& text);
     /// Parses the arguments and runs the chosen command; returns the program's exit code. Throws InputError
     /// where there is no such command, and passes on the command's exceptions.
     int run(int argument_count, const char* const* arguments);
@@ -91,6 +98,7 @@ class CommandLine {
     void print_help(const std::string& command) const;
 
     std::unique_ptr<CLI::App> app_;
+    std::vector<std::unique_ptr<CLI::App>> topics_;
     std::string text_;
     int exit_code_ = kExitDone;
 };
@@ -110,5 +118,7 @@ void add_report(CommandLine& line);
 void add_export(CommandLine& line);
 void add_import(CommandLine& line);
 void add_verify(CommandLine& line);
+/// A topic of `help`.
+void add_patch_topic(CommandLine& line);
 
 }  // namespace stilb::cli

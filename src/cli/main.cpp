@@ -31,6 +31,7 @@ int run_commands(int argument_count, const char* const* arguments) {
     cli::add_import(line);
     cli::add_verify(line);
     papers::add_reproduce(line);
+    cli::add_patch_topic(line);
     line.add_help();
     return line.run(argument_count, arguments);
 }

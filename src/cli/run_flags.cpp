@@ -42,6 +42,7 @@ void RunFlags::add_to(Command& command) {
         .from_to(0, kMostBounces)
         .value_name("N");
     add_those_of_all(command);
+    PatchFlags::hide_in(command);
 }
 
 void RunFlags::add_those_of_solutions(Command& command, std::optional<int>& degree) {
@@ -186,6 +187,21 @@ void PatchFlags::add_to(Command& command) {
     add("--visibility", visibility, "Visibility backend: rays (default) or opengl", "NAME");
     add("--directions", directions,
         "Directions of the bundles in a step of ray-bundle: single, pair or frame (default)", "NAME");
+}
+
+void PatchFlags::hide_in(Command& command) {
+    for (const char* name : {"--first-shot", "--window", "--resolution", "--visibility", "--directions"})
+        command.find(name).hidden();
+    command.set_footer("First shot, item buffers and bundles of methods on patches: stilb help patches");
+}
+
+void add_patch_topic(CommandLine& line) {
+    Command topic = line.add_topic(
+        "patches",
+        "The flags of methods on patches, for measure, render and report; solve has some of them, too. The\n"
+        "methods are explained in docs/patches.md and docs/first-shot.md.");
+    static PatchFlags flags;  // nothing is parsed
+    flags.add_to(topic);
 }
 
 std::vector<std::string_view> PatchFlags::given() const {

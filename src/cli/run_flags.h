@@ -26,6 +26,8 @@ struct PatchFlags {
     std::optional<int> resolution;
 
     void add_to(Command& command);
+    /// Leaves all but --patch to `stilb help patches`.
+    static void hide_in(Command& command);
     /// Throws InputError where a given flag does not apply to the method, or has no such value.
     estimators::PatchOptions options_for(const std::string& method) const;
     /// The names of the flags that were typed.

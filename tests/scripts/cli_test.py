@@ -336,6 +336,18 @@ class HelpTest(CommandLineTest):
         for command, flag in (("measure", "--sensor"), ("verify", "--case"), ("verify", "--method")):
             self.assertRegex(run(command, "--help").stdout, f"{flag} NAME +[A-Z].* \\(may be repeated\\)\n")
 
+    def test_flags_of_patches_have_a_page_of_their_own(self):
+        topic = run("help", "patches")
+        self.assertEqual((topic.returncode, topic.stderr), (0, ""))
+        for command in ("measure", "render", "report"):
+            text = run(command, "--help").stdout
+            self.assertIn("stilb help patches", text)
+            self.assertIn("--patch ", text)
+            for flag in ("--first-shot", "--window", "--resolution", "--visibility", "--directions"):
+                self.assertNotIn(flag, text)
+                self.assertRegex(topic.stdout, rf"{flag} [A-Z]+ ")
+        self.assertIn("--first-shot", run("solve", "--help").stdout)
+
     def test_help_is_a_command_too(self):
         for command in ([], ["measure"], ["help"]):
             result = run("help", *command)
