@@ -238,8 +238,7 @@ std::vector<std::string> validate(const Scene& scene) {
     const io::SceneFile& file = scene.data().file;
     const rays::RayCaster caster(file.scene);
     const checks::Enclosures enclosures(file.scene, caster);
-    return texts_of(
-        checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings));
+    return texts_of(checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings));
 }
 
 std::vector<std::string> validate(const SceneBuilder& builder) {

@@ -79,8 +79,7 @@ class ByteReader {
     }
     [[noreturn]] void fail(const std::string& message) const {
         throw InputError(
-            fmt::format("damaged at byte {} of its contents: {}. {}", position_, message, remedy_),
-            {name_});
+            fmt::format("damaged at byte {} of its contents: {}. {}", position_, message, remedy_), {name_});
     }
 
   private:

@@ -36,9 +36,9 @@ enum class WarningKind : std::uint8_t {
 
 /// As JSON and Python have them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 19> kWarningKindNames{
-    "file",       "no-light",   "units",  "openings", "precision", "holes",   "overlaps",
-    "lamps",      "placement",  "facing", "reach",    "unlit",     "absorption", "method",
-    "patches",    "rare-light", "glare",  "first-look", "missing-view"};
+    "file",    "no-light",   "units",  "openings",   "precision",   "holes",      "overlaps",
+    "lamps",   "placement",  "facing", "reach",      "unlit",       "absorption", "method",
+    "patches", "rare-light", "glare",  "first-look", "missing-view"};
 
 static_assert(kWarningKindNames.size() == static_cast<std::size_t>(WarningKind::missing_view) + 1);
 

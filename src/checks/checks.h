@@ -186,7 +186,7 @@ std::vector<std::string> unit_warnings(const Scene& scene);
 /// The warnings of all checks, after those that the reader of the scene has given. `sensors`: those that are
 /// measured, or none.
 std::vector<Warning> scene_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                        const Enclosures& enclosures, std::span<const Sensor> sensors,
-                                        std::vector<Warning> of_reader = {});
+                                    const Enclosures& enclosures, std::span<const Sensor> sensors,
+                                    std::vector<Warning> of_reader = {});
 
 }  // namespace stilb::checks

@@ -59,7 +59,7 @@ std::string reached_text(const RunResult& result, const RunOptions& options) {
 }
 
 std::string end_text(const RunResult& result) {
-    return fmt::format("The calculation {}{}.", end_of(result.stop_reason),
+    return fmt::format("The calculation ended: {}{}.", io::ending(result.stop_reason, "samples"),
                        result.converged ? "" : ", before the requested error was reached");
 }
 
@@ -75,24 +75,6 @@ std::string verdict_text(const RunResult& result) {
 }
 
 }  // namespace
-
-std::string_view end_of(StopReason reason) {
-    switch (reason) {
-        case StopReason::target_reached:
-            return "ended when the requested error was reached";
-        case StopReason::requirements_decided:
-            return "ended when all requirements were decided";
-        case StopReason::paths_done:
-            return "ended when the requested number of samples was done";
-        case StopReason::time_over:
-            return "ended at its time limit";
-        case StopReason::interrupted:
-            return "was interrupted";
-        case StopReason::patches_too_coarse:
-            break;
-    }
-    return "ended because the patches are too coarse for the requested error";
-}
 
 Html certainty(const RunResult& result, const RunOptions& options) {
     const std::string_view css_class = result.converged ? "" : "attention";

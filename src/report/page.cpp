@@ -87,7 +87,7 @@ void add_run(const RunSummary& run, std::string_view name, std::string_view samp
     facts.add(name, text(fmt::format("method {}, seed {}, {} {}, {} replicates, ", io::method_text(run),
                                      run.seed, run.samples, samples, run.replicates)) +
                         varying(fmt::format("{:.1f} s", run.elapsed_s)) +
-                        text(fmt::format("; {}", end_of(run.stop_reason))));
+                        text(fmt::format("; {}", io::ending(run.stop_reason, samples))));
     if (run.patches) facts.add("Patches", varying(io::patch_text(*run.patches)));
     if (!run.levels_of_detail.empty())
         facts.add("Series of bodies", text(io::detail_text(run.levels_of_detail)));

@@ -35,7 +35,7 @@ struct Report {
     std::optional<RunResult> readings;
     std::vector<View> views;
     std::vector<Warning> warnings;  ///< of the file and of all runs
-    bool lists_readings = false;        ///< all of them, at the end
+    bool lists_readings = false;    ///< all of them, at the end
 };
 
 /// The same report gives the same page. What differs between runs with the same seed and the same number of

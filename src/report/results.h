@@ -18,7 +18,4 @@ Html glare(const RunResult& result);
 /// All readings of all sensors, one by one.
 Html all_readings(const RunResult& result);
 
-/// The words for an end of a run, such as "ended at its time limit".
-std::string_view end_of(StopReason reason);
-
 }  // namespace stilb::report

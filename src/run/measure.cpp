@@ -332,7 +332,8 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
     result.power = scene::installed_power(scene);
     result.rooms = power_of_rooms(scene, session.caster());
     if (part.of == 1) set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
-    add_warnings(WarningKind::rare_light, sharp_light_warnings(sharp, result.samples, scene), result.warnings);
+    add_warnings(WarningKind::rare_light, sharp_light_warnings(sharp, result.samples, scene),
+                 result.warnings);
     add_warnings(WarningKind::patches, patch_error_warnings(result), result.warnings);
     session.finish(result);
     result.scene_name = scene.name;

@@ -29,9 +29,9 @@ RunPlan RunPlan::of(std::span<const Sensor> sensors, const RunOptions& options, 
 
 void RunPlan::write(ByteWriter& bytes) const {
     bytes.add_list(technique);
-    for (const std::uint64_t number : {seed, std::uint64_t{replicates}, std::uint64_t{pools_errors},
-                                       std::uint64_t{has_paces}, std::uint64_t{strands}, unit, first_check,
-                                       most_at_once, std::uint64_t{paces.size()}})
+    for (const std::uint64_t number :
+         {seed, std::uint64_t{replicates}, std::uint64_t{pools_errors}, std::uint64_t{has_paces},
+          std::uint64_t{strands}, unit, first_check, most_at_once, std::uint64_t{paces.size()}})
         bytes.add(number);
     for (const std::vector<estimators::Pace>& of_replicate : paces) bytes.add_list(of_replicate);
 }
@@ -57,7 +57,8 @@ RunPlan RunPlan::read(ByteReader& bytes) {
 
 void RunState::merge(RunState part) {
     if (part.plan != plan) throw std::invalid_argument("the parts are of runs of different plans");
-    if (tallies.empty()) tallies = std::move(part.tallies);
+    if (tallies.empty())
+        tallies = std::move(part.tallies);
     else if (!part.tallies.empty()) {
         for (std::size_t i = 0; i < tallies.size(); ++i) {
             if (part.tallies[i].samples == 0) continue;

@@ -96,11 +96,13 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
     constexpr double much = 0.5;
     result.patch_error = bias.at_most;
     if (kBiasesOfMostPixels * bias.at_most <= much * result.attained_error) return;
-    result.warnings.emplace_back(WarningKind::patches, fmt::format(
-        "path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
-        "picture, whose light is stored on patches. The stated error of the pixels includes this, "
-        "their standard errors do not. Choose smaller patches, or method auto, which needs none.",
-        100 * bias.at_most));
+    result.warnings.emplace_back(
+        WarningKind::patches,
+        fmt::format(
+            "path tracing through some pixels differs by up to {:.2g} % (root mean square) from this "
+            "picture, whose light is stored on patches. The stated error of the pixels includes this, "
+            "their standard errors do not. Choose smaller patches, or method auto, which needs none.",
+            100 * bias.at_most));
 }
 
 /// `options`: `asked` with defaults.

@@ -28,6 +28,9 @@ enum class StopReason {
     interrupted,
     patches_too_coarse
 };
+/// As JSON has them, in the order of the enumeration.
+inline constexpr std::array<std::string_view, 6> kStopReasonNames{
+    "target reached", "requirements decided", "paths done", "time over", "interrupted", "patches too coarse"};
 
 /// The truncation of the series of an object (level_of_detail.h).
 struct LevelOfDetail {

@@ -1,11 +1,14 @@
 #include "walk/live_walk.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <utility>
 
 #include "base/monitor.h"
+#include "io/results/results_text.h"
 #include "rays/ray_caster.h"
 
 namespace stilb::walk {
@@ -21,24 +24,6 @@ double share_done(const ProgressSink::Progress& progress) {
     if (!std::isfinite(progress.remaining_s)) return 0;
     const double all_s = progress.elapsed_s + progress.remaining_s;
     return all_s > 0 ? progress.elapsed_s / all_s : 0;
-}
-
-const char* sentence_of(StopReason reason) {
-    switch (reason) {
-        case StopReason::target_reached:
-            return "The requested error is reached.";
-        case StopReason::requirements_decided:
-            return "All requirements are decided.";
-        case StopReason::paths_done:
-            return "All steps are done.";
-        case StopReason::time_over:
-            return "The time limit is reached.";
-        case StopReason::interrupted:
-            return "Interrupted.";
-        case StopReason::patches_too_coarse:
-            return "The patches are too coarse for the requested error.";
-    }
-    return "";
 }
 
 }  // namespace
@@ -80,7 +65,7 @@ void LiveWalk::work() {
             state.stage = "done";
             state.share = 1;
             state.is_done = true;
-            state.message = sentence_of(result_->stop_reason);
+            state.message = fmt::format("Finished: {}.", io::ending(result_->stop_reason, "steps"));
         });
     } catch (...) {
         failure_ = std::current_exception();

@@ -87,9 +87,9 @@ Seen seen(const std::string& glass, const std::string& method = "auto") {
     if (method == "ray-bundle") options.patches.patch_m = 100;
     const RunResult result = run::measure(file.scene, file.sensors, options);
     Seen seen{result.sensors[0].readings[0].estimate, result.sensors[1].readings[0].estimate, {}};
-    std::ranges::copy_if(texts_of(file.warnings), std::back_inserter(seen.warnings), [](const std::string& warning) {
-        return warning.find("\"glass\"") != warning.npos;
-    });
+    std::ranges::copy_if(
+        texts_of(file.warnings), std::back_inserter(seen.warnings),
+        [](const std::string& warning) { return warning.find("\"glass\"") != warning.npos; });
     return seen;
 }
 

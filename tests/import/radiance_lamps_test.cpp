@@ -141,10 +141,10 @@ TEST(RadianceLamps, SpotlightsWithAFocusAreWarnedOf) {
     const SceneFile file =
         read_rad("void spotlight beam 0 0 7 50 50 50 40 0 0 -2\nbeam ring r 0 0 8 0 0 3 0 0 -1 0 .1\n");
     ASSERT_EQ(file.warnings.size(), 1u);
-    EXPECT_NE(
-        file.warnings[0].text.find("from a focus 2 m behind it, the length of its direction: 2 m away this is 4 "
-                              "times Radiance's illuminance"),
-        std::string::npos)
+    EXPECT_NE(file.warnings[0].text.find(
+                  "from a focus 2 m behind it, the length of its direction: 2 m away this is 4 "
+                  "times Radiance's illuminance"),
+              std::string::npos)
         << file.warnings[0].text;
 }
 

@@ -102,7 +102,8 @@ TEST(DaylightGlareProbability, SaysWhatItIsNotMadeFor) {
     ASSERT_EQ(result.warnings.size(), 2u);
     EXPECT_NE(result.warnings[0].text.find("is below 380 lx in 1 of 1 views"), std::string::npos)
         << result.warnings[0].text;
-    EXPECT_NE(result.warnings[1].text.find("is missing from DGP"), std::string::npos) << result.warnings[1].text;
+    EXPECT_NE(result.warnings[1].text.find("is missing from DGP"), std::string::npos)
+        << result.warnings[1].text;
 }
 
 /// 380 lx under an even sky, which is no source.

@@ -228,7 +228,8 @@ TEST(UnifiedGlareRating, SaysWhatItLeavesOut) {
     add_area_light(scene, Sphere{{0, 4, 1.2}, 0.02}, Rgb::grey(1e6));
     const run::RunResult result = rated(scene, 1);
     ASSERT_EQ(result.warnings.size(), 2u) << fmt::format("{}", fmt::join(texts_of(result.warnings), "\n"));
-    EXPECT_NE(result.warnings[0].text.find("is less than 0.0003 sr"), std::string::npos) << result.warnings[0].text;
+    EXPECT_NE(result.warnings[0].text.find("is less than 0.0003 sr"), std::string::npos)
+        << result.warnings[0].text;
     EXPECT_NE(result.warnings[1].text.find("a point has no luminous area"), std::string::npos)
         << result.warnings[1].text;
 }

@@ -110,8 +110,9 @@ Sensor at_point(const Vec3& position, const Vec3& normal) {
 }
 
 bool has_warning(const RunResult& result, std::string_view part) {
-    return std::ranges::any_of(
-        texts_of(result.warnings), [&](const std::string& warning) { return warning.find(part) != std::string::npos; });
+    return std::ranges::any_of(texts_of(result.warnings), [&](const std::string& warning) {
+        return warning.find(part) != std::string::npos;
+    });
 }
 
 TEST(Measure, WarnsWhereItFoundNoLight) {

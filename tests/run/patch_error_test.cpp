@@ -144,7 +144,8 @@ TEST(PatchErrorOfPictures, IsInTheStatedError) {
         EXPECT_LT(*result.patch_error, 1.5 * found);
         EXPECT_GT(result.attained_error, 2 * 0.7 * found);
         ASSERT_FALSE(result.warnings.empty());
-        EXPECT_NE(result.warnings[0].text.find("smaller patches"), std::string::npos) << result.warnings[0].text;
+        EXPECT_NE(result.warnings[0].text.find("smaller patches"), std::string::npos)
+            << result.warnings[0].text;
     };
     const RenderResult by_patches = render(scene, view, options);
     expect_stated(by_patches);

@@ -135,7 +135,8 @@ TEST(PathFirstShot, SaysThatItIsBiased) {
     const RunResult result =
         measure(phong_room(), sensors(), path_options(1 << 10, estimators::FirstShotVariant::incoming, 0.5));
     ASSERT_EQ(result.warnings.size(), 1U);
-    EXPECT_NE(result.warnings[0].text.find("biased by patches of 0.5 m"), std::string::npos) << result.warnings[0].text;
+    EXPECT_NE(result.warnings[0].text.find("biased by patches of 0.5 m"), std::string::npos)
+        << result.warnings[0].text;
     EXPECT_EQ(result.patches->first_shot, estimators::FirstShotVariant::incoming);
 }
 

@@ -132,7 +132,8 @@ INSTANTIATE_TEST_SUITE_P(Methods, RunOfPlan,
                          testing::Values(PlanCase{"auto", 2, 1 << 16}, PlanCase{"light-paths", 4, 1 << 16},
                                          PlanCase{"guided", 4, 1 << 10}, PlanCase{"guided", 12, 1 << 10},
                                          PlanCase{"path", 3, 1 << 16}, PlanCase{"ray-bundle", 3, 1 << 14},
-                                         PlanCase{"particles", 3, 1 << 22}, PlanCase{"radiosity", 3, 1 << 12}));
+                                         PlanCase{"particles", 3, 1 << 22},
+                                         PlanCase{"radiosity", 3, 1 << 12}));
 
 TEST(RunState, RefusesWhatDoesNotFit) {
     const Scene scene = lit_room();

@@ -408,7 +408,8 @@ TEST(Areas, WhollyInABodyAreDark) {
     const RunResult result = measure(rated_room(), {&buried, 1}, rating_options("path"));
     EXPECT_EQ(result.sensors.at(0).summary.mean.value, 0);
     ASSERT_FALSE(result.warnings.empty());
-    EXPECT_NE(result.warnings[0].text.find("which contains no light"), std::string::npos) << result.warnings[0].text;
+    EXPECT_NE(result.warnings[0].text.find("which contains no light"), std::string::npos)
+        << result.warnings[0].text;
 }
 
 }  // namespace

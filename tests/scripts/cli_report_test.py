@@ -174,7 +174,7 @@ class ReportTest(CommandLineTest):
 
     def test_the_end_before_the_error_is_told(self):
         _, page = self.report("--error", "0.0001%", "--time", "2", code=3)
-        self.assertIn("ended at its time limit, before the requested error was reached.", page.text)
+        self.assertIn("ended: time limit reached, before the requested error was reached.", page.text)
         self.assertRegex(page.text, r"\d+ of 7 readings reach it")
 
     def test_names_are_escaped(self):

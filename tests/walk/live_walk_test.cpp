@@ -66,7 +66,8 @@ TEST(LiveWalk, HasSceneAndLightAtTheEnd) {
     EXPECT_TRUE(walk.scene()->starts_with("STILBWLK"));
     EXPECT_TRUE(walk.light()->starts_with("STILBWLK"));
     EXPECT_TRUE(contains(walk.state(), R"("stage":"done","share":1.0,"scene":true)")) << walk.state();
-    EXPECT_TRUE(contains(walk.state(), R"("done":true,"message":"All steps are done.")")) << walk.state();
+    EXPECT_TRUE(contains(walk.state(), R"("done":true,"message":"Finished: all steps done.")"))
+        << walk.state();
 }
 
 TEST(LiveWalk, ShowsASolution) {
@@ -96,7 +97,7 @@ TEST(LiveWalk, LightIsRefined) {
     EXPECT_EQ(result.stop_reason, StopReason::interrupted);
     EXPECT_EQ(*third, copy);
     EXPECT_NE(walk.light(), third);
-    EXPECT_TRUE(contains(walk.state(), "Interrupted.")) << walk.state();
+    EXPECT_TRUE(contains(walk.state(), "Finished: interrupted.")) << walk.state();
 }
 
 TEST(LiveWalk, EndsAtOnceWhereNobodyWantsIt) {

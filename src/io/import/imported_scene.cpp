@@ -135,7 +135,8 @@ ImportedScene::ImportedScene(const std::filesystem::path& path) {
 }
 
 void ImportedScene::note(std::string_view sentence, WarningKind kind) {
-    file.warnings.emplace_back(kind, InputError(std::string(sentence), {file.sources.front().string()}).what());
+    file.warnings.emplace_back(kind,
+                               InputError(std::string(sentence), {file.sources.front().string()}).what());
 }
 
 void ImportedScene::remark_mean_texture(std::string_view material) {

@@ -151,24 +151,6 @@ Json patches_json(const estimators::PatchReport& report) {
               {"lights", std::move(lights)}}}};
 }
 
-const char* text_of(StopReason reason) {
-    switch (reason) {
-        case StopReason::target_reached:
-            return "target reached";
-        case StopReason::requirements_decided:
-            return "requirements decided";
-        case StopReason::paths_done:
-            return "paths done";
-        case StopReason::time_over:
-            return "time over";
-        case StopReason::interrupted:
-            return "interrupted";
-        case StopReason::patches_too_coarse:
-            return "patches too coarse";
-    }
-    return "";
-}
-
 /// Appends an object of numbers to a text, member by member: as trees, half a million readings would take a
 /// second.
 class ObjectText {
@@ -308,7 +290,7 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
               {"replicates", result.replicates},
               {"rays", result.rays},
               {"converged", result.converged},
-              {"stopped", text_of(result.stop_reason)},
+              {"stopped", run::kStopReasonNames[static_cast<std::size_t>(result.stop_reason)]},
               {"attained_error", result.attained_error}};
     if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
     json["warnings"] = texts_of(result.warnings);

@@ -72,7 +72,8 @@ class Assembly {
         file_.warnings.assign(description_.warnings.begin(), description_.warnings.end());
         for (std::string& warning : warnings_.list()) file_.warnings.push_back(std::move(warning));
         if (file_.scene.lights.empty())
-            file_.warnings.emplace_back(WarningKind::no_light, InputError(std::string(kNoLight), {description_.files[0]}).what());
+            file_.warnings.emplace_back(WarningKind::no_light,
+                                        InputError(std::string(kNoLight), {description_.files[0]}).what());
         file_.notes.push_back(fmt::format(
             "Radiance: lengths in m; luminances are {:g} lm/W times {:g} R + {:g} G + {:g} B "
             "(docs/radiance.md)",
