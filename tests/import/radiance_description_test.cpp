@@ -1,6 +1,5 @@
 // The language of Radiance's scene files: words, commands, transforms. Expected numbers of commands are those
-// of Radiance's own programs (xform, genbox, genrev of pyradiance 1.3).
-#include "io/import/radiance/calculation.h"
+// of Radiance's own programs (xform and genbox of pyradiance 1.3).
 #include "radiance_text.h"
 #include "support/test_folder.h"
 
@@ -134,37 +133,6 @@ TEST(RadianceDescription, FrontsOfBoxesLookOutwardsUnlessInverted) {
     EXPECT_NEAR(volume("!genbox m b 1 2 3 -b .1 | xform -I -mx\n"), -cut, 1e-12);
 }
 
-TEST(RadianceDescription, RevolutionsOfGenrev) {
-    const auto description =
-        describe_rad(with_material("!genrev m v 'hermite(0,1,2,2,t)' 'if(t-.5, 1, .5+t)' 4 -e 'a = 2'\n"));
-    ASSERT_EQ(description.surfaces.size(), 4u);
-    EXPECT_EQ(description.surfaces[0].kind, SurfaceKind::cone);
-    expect_numbers(description, 0, {0, 0, 0, 0, 0, 0.34375, 0.5, 0.75});
-    EXPECT_EQ(description.surfaces[3].kind, SurfaceKind::cylinder);
-    expect_numbers(description, 3, {0, 0, 0.65625, 0, 0, 1, 1});
-    const auto square = describe_rad(with_material("!genrev m v -t^2 .5 2\n"));
-    expect_numbers(square, 1, {0, 0, 0.25, 0, 0, 1, 0.5});
-    const auto plate = describe_rad(with_material("!genrev m v 1 '1-t' 1\n!genrev m w '1-t' 't' 1\n"));
-    expect_numbers(plate, 0, {0, 0, 1, 0, 0, 1, 0, 1});
-    EXPECT_EQ(plate.surfaces[1].kind, SurfaceKind::cup);
-}
-
-TEST(RadianceCalculation, FormulasAndDefinitions) {
-    radiance::Calculation calculation;
-    calculation.define("a = 2; f(x, y) = a*x - y; c : 3;");
-    EXPECT_DOUBLE_EQ(calculation.value("f(t, 1) + c", 5), 12);
-    EXPECT_DOUBLE_EQ(calculation.value("2^3^2 / 4", 0), 128);
-    EXPECT_DOUBLE_EQ(calculation.value("1e2 - -1 + 1.5e-1", 0), 101.15);
-    EXPECT_DOUBLE_EQ(calculation.value("mod(-1, 3) + sin(PI/2)", 0), 3);
-    EXPECT_DOUBLE_EQ(calculation.value("bezier(1,2,4,8,0.5)", 0), 27.0 / 8);
-    EXPECT_DOUBLE_EQ(calculation.value("bspline(6,6,6,6,0.3)", 0), 6);
-    EXPECT_THROW(calculation.value("f(1)", 0), InputError);
-    EXPECT_THROW(calculation.value("1/0", 0), InputError);
-    EXPECT_THROW(calculation.value("(1", 0), InputError);
-    calculation.define("loop = loop + 1");
-    EXPECT_THROW(calculation.value("loop", 0), InputError);
-}
-
 TEST(RadianceDescription, MessagesNameFileLineAndRemedy) {
     EXPECT_EQ(
         refusal_of_rad("void plastik m 0 0 5 1 1 1 0 0\n"),
@@ -198,11 +166,11 @@ TEST(RadianceDescription, CommandsThatAreNotRun) {
     EXPECT_EQ(
         refusal_of_rad("\n!gendaylit 6 21 12\n"),
         "r.rad:2: the command \"gendaylit\" cannot be run, because Stilb runs no other programs. Allowed: "
-        "xform, genbox, genrev, gensky, cat. Or let a shell run it once, and include its output: !cat FILE.");
+        "xform, genbox, gensky, cat. Or let a shell run it once, and include its output: !cat FILE.");
     EXPECT_EQ(
         refusal_of_rad("!cat a.rad; rm b\n"),
         "r.rad:1: the command contains \";\", which a shell would interpret. Stilb runs no shell. Allowed: "
-        "xform, genbox, genrev, gensky and cat, joined by \"|\"; other characters in quotes.");
+        "xform, genbox, gensky and cat, joined by \"|\"; other characters in quotes.");
     EXPECT_EQ(refusal_of_rad("!genbox m b 1 1 1 | wc\n"),
               "r.rad:1: \"wc\" behind a \"|\" is not allowed. Allowed: xform.");
     unsetenv("RAYPATH");

@@ -247,18 +247,19 @@ class PatchReader {
 
 }  // namespace
 
-Octree octree_of(std::string_view content, const std::string& name) {
+std::vector<std::string> files_of_octree(std::string_view content, const std::string& name) {
     CompiledReader reader(content, name);
     reader.read_header(kOctreeFormat, kOctreeNumber);
     for (int i = 0; i < 4; ++i) reader.text();  // its bounds
-    Octree octree;
+    std::vector<std::string> files;
     for (std::string file = reader.text(); !file.empty(); file = reader.text())
-        octree.files.push_back(std::move(file));
-    if (!octree.files.empty()) return octree;
-    reader.index();  // the number of objects
-    reader.skip_tree();
-    octree.primitives = reader.primitives();
-    return octree;
+        files.push_back(std::move(file));
+    if (files.empty()) {
+        reader.fail(
+            "this octree is frozen (oconv -f). Name the Radiance files that it was made of, or make it without "
+            "-f.");
+    }
+    return files;
 }
 
 void add_compiled_mesh(std::string_view content, const std::string& name, std::optional<std::size_t> modifier,

@@ -10,13 +10,9 @@
 
 namespace stilb::io::radiance {
 
-/// The scene of an octree: the names of its files, or, where it is frozen (oconv -f), its primitives.
-struct Octree {
-    std::vector<std::string> files;
-    std::vector<Primitive> primitives;
-};
-/// Throws InputError with the name of the file.
-Octree octree_of(std::string_view content, const std::string& name);
+/// The names of the files of an octree. Throws InputError with the name of the file, also where it is frozen
+/// (oconv -f): then it has no files.
+std::vector<std::string> files_of_octree(std::string_view content, const std::string& name);
 
 /// Adds the triangles of a compiled mesh. They have the materials of the file unless `modifier` is one.
 /// Throws InputError with the name of the file.

@@ -137,20 +137,12 @@ class Reader {
             add_file(name, path.parent_path());
             add_compiled_mesh(content, name, modifier, primitive, collector_);
         } else {
-            read_octree(content, path, primitive);
+            read_octree(content, path);
         }
     }
-    void read_octree(const std::string& content, const std::filesystem::path& path,
-                     const Primitive& primitive) {
+    void read_octree(const std::string& content, const std::filesystem::path& path) {
         const auto file = add_file(path.string(), path.parent_path());
-        const Octree octree = octree_of(content, path.string());
-        for (const std::string& part : octree.files) include(part, {file, 0});
-        for (Primitive part : octree.primitives) {
-            part.place = {file, 0};
-            if (role_of(part.type) == Role::surface && primitive.modifier != "void")
-                part.modifier = primitive.modifier;
-            role_of(part.type) == Role::instance ? read_instance(part) : collector_.add(std::move(part));
-        }
+        for (const std::string& part : files_of_octree(content, path.string())) include(part, {file, 0});
     }
 
     // Commands
@@ -182,17 +174,13 @@ class Reader {
             for (const std::string& name : arguments) include(name, place);
         } else if (last.front() == "genbox") {
             placed(place, [&] { run_genbox(arguments, place, collector_); });
-        } else if (last.front() == "genrev") {
-            placed(place, [&] {
-                if (run_genrev(arguments, place, collector_)) warn_of_smoothing(place);
-            });
         } else if (last.front() == "gensky") {
             read_output(at(place, [&] { return gensky(arguments); }), place);
         } else {
             fail(
                 fmt::format(
                     "the command {} cannot be run, because Stilb runs no other programs. Allowed: "
-                    "xform, genbox, genrev, gensky, cat. Or let a shell run it once, and include its output: "
+                    "xform, genbox, gensky, cat. Or let a shell run it once, and include its output: "
                     "!cat FILE.",
                     in_quotes(last.front())),
                 place);
@@ -209,13 +197,6 @@ class Reader {
             if (message.starts_with(known)) throw;
             fail(message, place);
         }
-    }
-    void warn_of_smoothing(const Place& place) {
-        description_.warnings.emplace_back(
-            InputError("genrev: normals that are smooth across segments (-s) are left out; each segment is "
-                       "smooth around its axis.",
-                       description_.where(place))
-                .what());
     }
 
     void run_xform(const std::vector<std::string>& arguments, const Programs& before, const Place& place) {

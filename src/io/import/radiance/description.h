@@ -52,7 +52,6 @@ struct Description {
     std::vector<Modifier> modifiers;
     std::vector<Surface> surfaces;
     std::vector<double> numbers;
-    std::vector<std::string> warnings;
 
     SourceLocation where(const Place& place) const { return {files[place.file], place.line}; }
 };

@@ -6,18 +6,10 @@
 #include <cmath>
 #include <string_view>
 
-#include "io/import/radiance/calculation.h"
 #include "io/text/text.h"
 
 namespace stilb::io::radiance {
 namespace {
-
-constexpr double kSameNumber = 1e-9;  ///< as in genrev
-constexpr double kMostSegments = 100'000;
-
-void require_arguments(const std::vector<std::string>& arguments, std::string_view usage) {
-    if (arguments.size() < 5) throw InputError(fmt::format("arguments are missing. Needed: {}.", usage));
-}
 
 double size_of(const std::string& text, std::string_view what) {
     const auto value = parse_number(text);
@@ -149,51 +141,11 @@ class BoxMaker {
 }  // namespace
 
 void run_genbox(const std::vector<std::string>& arguments, const Place& place, Collector& collector) {
-    require_arguments(arguments, "genbox MATERIAL NAME X Y Z [-i] [-b BEVEL | -r RADIUS]");
+    if (arguments.size() < 5) {
+        throw InputError(
+            "arguments are missing. Needed: genbox MATERIAL NAME X Y Z [-i] [-b BEVEL | -r RADIUS].");
+    }
     BoxMaker(arguments, place, collector).run();
-}
-
-bool run_genrev(const std::vector<std::string>& arguments, const Place& place, Collector& collector) {
-    require_arguments(arguments, "genrev MATERIAL NAME Z(t) R(t) SEGMENTS [-e DEFINITIONS] [-s]");
-    Calculation calculation;
-    bool is_smooth = false;
-    for (std::size_t i = 5; i < arguments.size(); ++i) {
-        if (arguments[i] == "-e" && i + 1 < arguments.size()) {
-            calculation.define(arguments[++i]);
-        } else if (arguments[i] == "-s") {
-            is_smooth = true;
-        } else {
-            throw InputError(fmt::format("genrev: {} is not allowed here. Allowed: -e DEFINITIONS, -s.",
-                                         in_quotes(arguments[i])));
-        }
-    }
-    const double count = std::floor(calculation.value(arguments[4], 0) + 0.5);
-    if (!(count >= 1 && count <= kMostSegments))
-        throw InputError(fmt::format("genrev: {} segments. Allowed: 1 to {}.", count, kMostSegments));
-    const auto at = [&](double i) {
-        const double t = i / count;
-        return std::array{calculation.value(arguments[2], t), calculation.value(arguments[3], t)};
-    };
-    auto [last_z, last_r] = at(0);
-    for (double i = 1; i <= count; ++i) {
-        const auto [z, r] = at(i);
-        const bool is_up = z > last_z + kSameNumber, is_down = z < last_z - kSameNumber;
-        const bool is_wider = r > last_r + kSameNumber, is_narrower = r < last_r - kSameNumber;
-        const std::string name = fmt::format("{}.{}", arguments[1], i);
-        const auto add = [&](SurfaceKind kind, std::vector<double> numbers) {
-            collector.add_surface(kind, name, arguments[0], std::move(numbers), place);
-        };
-        if (!is_wider && !is_narrower) {
-            if (is_up || is_down)
-                add(is_down ? SurfaceKind::tube : SurfaceKind::cylinder, {0, 0, last_z, 0, 0, z, r});
-        } else if (!is_up && !is_down) {
-            add(SurfaceKind::ring, {0, 0, z, 0, 0, is_narrower ? 1. : -1., last_r, r});
-        } else {
-            add(is_down ? SurfaceKind::cup : SurfaceKind::cone, {0, 0, last_z, 0, 0, z, last_r, r});
-        }
-        last_z = z, last_r = r;
-    }
-    return is_smooth;
 }
 
 }  // namespace stilb::io::radiance

@@ -69,7 +69,6 @@ class Assembly {
         add_sky();
         for (const std::string& file : description_.files) file_.sources.emplace_back(file);
         file_.sources.insert(file_.sources.end(), tables_.begin(), tables_.end());
-        file_.warnings.assign(description_.warnings.begin(), description_.warnings.end());
         for (std::string& warning : warnings_.list()) file_.warnings.push_back(std::move(warning));
         if (file_.scene.lights.empty())
             file_.warnings.emplace_back(WarningKind::no_light,

@@ -43,7 +43,7 @@ class CommandSplitter {
         if (of_shells.find(c) != of_shells.npos) {
             throw InputError(fmt::format(
                 "the command contains {}, which a shell would interpret. Stilb runs no shell. Allowed: "
-                "xform, genbox, genrev, gensky and cat, joined by \"|\"; other characters in quotes.",
+                "xform, genbox, gensky and cat, joined by \"|\"; other characters in quotes.",
                 in_quotes({&c, 1})));
         }
         add(c);
