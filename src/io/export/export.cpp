@@ -74,6 +74,10 @@ std::string Identifiers::make(std::string_view name) {
     return identifier;
 }
 
+std::string no_equal(std::string_view type, std::string_view program, std::string_view instead) {
+    return fmt::format("{} has no equal to type \"{}\": {}.", program, type, instead);
+}
+
 std::string text_of(const Vec3& vector) {
     return fmt::format("{:.15g} {:.15g} {:.15g}", vector.x, vector.y, vector.z);
 }

@@ -26,6 +26,12 @@ struct MitsubaLight {
     const std::string& name;
     Output& output;
 
+    /// Any kind of light that none of the others is for.
+    template <typename Source>
+    std::string operator()(const Source&) const {
+        output.warn("light", name, no_equal(Source::kType, "Mitsuba", "it is left out"));
+        return "";
+    }
     std::string operator()(const PointLight& light) const {
         const Vec3& p = light.position;
         return light_of(

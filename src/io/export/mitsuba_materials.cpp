@@ -36,6 +36,12 @@ struct MitsubaMaterial {
             type));
     }
 
+    /// Any model that none of the others is for.
+    template <typename Model>
+    std::string operator()(const Model& m) const {
+        warn(no_equal(Model::kType, "Mitsuba", "a diffuse surface that reflects as much stands for it"));
+        return two_sided(id, "diffuse", color("reflectance", m.reflectance_bound()));
+    }
     std::string operator()(const Diffuse& m) const {
         return two_sided(id, "diffuse", color("reflectance", m.reflectance));
     }

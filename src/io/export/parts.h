@@ -64,6 +64,9 @@ std::string photometric_table(const std::function<double(const Vec3&)>& of_direc
 /// luminances along lines of sight ("x y z dx dy dz"); warns of all other sensors except cameras.
 void write_points(const std::vector<Sensor>& sensors, Output& output);
 
+/// The warning about a thing of a type that the other program lacks. `instead`: what is written.
+std::string no_equal(std::string_view type, std::string_view program, std::string_view instead);
+
 /// Three numbers with blanks between them, with as many digits as single precision needs.
 std::string text_of(const Vec3& vector);
 std::string text_of(const Rgb& rgb);

@@ -44,6 +44,12 @@ struct RadianceLight {
     const std::string& id;
     Output& output;
 
+    /// Any kind of light that none of the others is for.
+    template <typename Source>
+    std::string operator()(const Source&) const {
+        output.warn("light", id, no_equal(Source::kType, "Radiance", "it is left out"));
+        return "";
+    }
     std::string operator()(const PointLight& light) const {
         return point_lamp("void", id, light.position, light.intensity_cd);
     }

@@ -30,6 +30,12 @@ struct RadianceMaterial {
 
     void warn(std::string_view text) const { output.warn("material", name, text); }
 
+    /// Any model that none of the others is for.
+    template <typename Model>
+    std::string operator()(const Model& m) const {
+        warn(no_equal(Model::kType, "Radiance", "a diffuse surface that reflects as much stands for it"));
+        return with_rgb("plastic", id, m.reflectance_bound(), {0, 0});
+    }
     std::string operator()(const Diffuse& m) const { return with_rgb("plastic", id, m.reflectance, {0, 0}); }
     std::string operator()(const materials::Black&) const { return with_rgb("plastic", id, {}, {0, 0}); }
     std::string operator()(const Phong& m) const {
