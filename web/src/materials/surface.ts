@@ -16,10 +16,9 @@ const KINDS: Record<string, Kind> = {
   black: "black",
 };
 
+/** A type that this page does not know is drawn as if it were diffuse. */
 export function kindOf(material: MaterialEntry): Kind {
-  const kind = KINDS[material.type];
-  if (!kind) throw new Error(`material "${material.name}": this page cannot draw the type "${material.type}"`);
-  return kind;
+  return KINDS[material.type] ?? "diffuse";
 }
 
 export function rgbOf(value: number | Rgb | undefined, otherwise = 0): Rgb {
@@ -30,21 +29,8 @@ export function rgbOf(value: number | Rgb | undefined, otherwise = 0): Rgb {
 
 /** The share of light from everywhere that is reflected, for light that is drawn without a highlight. */
 export function flatReflectance(material: MaterialEntry): Rgb {
-  switch (material.type) {
-    case "diffuse":
-      return rgbOf(material.reflectance);
-    case "phong":
-    case "ward": {
-      const lobe = rgbOf(material.specular);
-      return rgbOf(material.diffuse).map((share, b) => share + lobe[b]!) as Rgb;
-    }
-    case "rough":
-      return rgbOf(material.reflectance);
-    case "plastic":
-      return material.colour;
-    default:
-      return [0, 0, 0];
-  }
+  const kind = kindOf(material);
+  return isSpecular(kind) || kind === "black" ? [0, 0, 0] : material.colour;
 }
 
 /** Whether light passes through or is mirrored, so that no light is stored on the surface. */
