@@ -9,7 +9,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace stilb::io::radiance;
     const std::string_view content(reinterpret_cast<const char*>(data), size);
     try {
-        octree_of(content, "scene.oct");
+        files_of_octree(content, "scene.oct");
     } catch (const stilb::InputError&) {
     }
     try {

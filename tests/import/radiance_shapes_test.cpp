@@ -127,9 +127,10 @@ TEST(RadianceShapes, CompiledMeshesAndOctrees) {
         radiance::files_of_octree(read_whole_file(kRadianceData / "compiled/frozen.oct"), "frozen.oct");
         ADD_FAILURE() << "a frozen octree was read";
     } catch (const InputError& error) {
-        EXPECT_STREQ(error.what(),
-                     "frozen.oct: this octree is frozen (oconv -f). Name the Radiance files that it was made of, or "
-                     "make it without -f.");
+        EXPECT_STREQ(
+            error.what(),
+            "frozen.oct: this octree is frozen (oconv -f). Name the Radiance files that it was made of, or "
+            "make it without -f.");
     }
     const auto mesh = std::get<Mesh>(read("mesh.rad").scene.objects.at(1).shape);
     ASSERT_EQ(mesh.corner_normals.size(), mesh.triangles.size());

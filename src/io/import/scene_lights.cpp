@@ -52,9 +52,8 @@ class LightTable {
     /// Any kind that imports do not make.
     template <typename Source>
     TomlMembers operator()(const Source&) const {
-        throw InputError(
-            fmt::format("light {} is of type \"{}\", which only scenes in TOML have.", in_quotes(light_.name),
-                        Source::kType));
+        throw InputError(fmt::format("light {} is of type \"{}\", which only scenes in TOML have.",
+                                     in_quotes(light_.name), Source::kType));
     }
     TomlMembers operator()(const PointLight& light) const {
         TomlMembers members{{"type", 0, toml_text("point")}, {"position", 0, toml_vector(light.position)}};

@@ -256,7 +256,8 @@ std::vector<std::string> files_of_octree(std::string_view content, const std::st
         files.push_back(std::move(file));
     if (files.empty()) {
         reader.fail(
-            "this octree is frozen (oconv -f). Name the Radiance files that it was made of, or make it without "
+            "this octree is frozen (oconv -f). Name the Radiance files that it was made of, or make it "
+            "without "
             "-f.");
     }
     return files;

@@ -178,11 +178,10 @@ class Reader {
             read_output(at(place, [&] { return gensky(arguments); }), place);
         } else {
             fail(
-                fmt::format(
-                    "the command {} cannot be run, because Stilb runs no other programs. Allowed: "
-                    "xform, genbox, gensky, cat. Or let a shell run it once, and include its output: "
-                    "!cat FILE.",
-                    in_quotes(last.front())),
+                fmt::format("the command {} cannot be run, because Stilb runs no other programs. Allowed: "
+                            "xform, genbox, gensky, cat. Or let a shell run it once, and include its output: "
+                            "!cat FILE.",
+                            in_quotes(last.front())),
                 place);
         }
     }
