@@ -22,6 +22,7 @@
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "sensors/sensor.h"
+#include "transport/light_parts.h"
 
 namespace stilb::estimators {
 
@@ -47,6 +48,9 @@ struct Problem {
     std::optional<Camera> camera = {};
     /// Options of methods on patches, and of first shot.
     PatchOptions patches = {};
+    /// The channels that light is divided into (Tally::parts), for readings; null for none. Known to path and
+    /// light-paths.
+    const transport::Channels* channels = nullptr;
     /// Monitors the set-up.
     const Monitor& monitor = Monitor::none();
 };
@@ -102,6 +106,9 @@ class Estimator {
     virtual void run_batch(const Batch& batch, Tally& sums) const = 0;
     /// The part of each reading that is computed without sampling [lx or cd/m2].
     virtual std::span<const Rgb> known_part() const = 0;
+    /// The same for each channel: channels x readings. Empty where the problem has none, or the method knows
+    /// none.
+    virtual std::span<const Rgb> known_parts() const { return {}; }
     /// The end of the line of sight of each luminance reading; nothing where it leaves the scene, and nothing
     /// for illuminances.
     virtual std::span<const std::optional<Vec3>> sight_ends() const = 0;

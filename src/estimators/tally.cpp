@@ -17,6 +17,7 @@ Tally& Tally::operator+=(const Tally& others) {
     lacking.resize(std::max(lacking.size(), others.lacking.size()));
     for (std::size_t i = 0; i < others.lacking.size(); ++i) lacking[i] += others.lacking[i];
     for (std::size_t i = 0; i < others.taken.size(); ++i) taken[i] += others.taken[i];
+    for (std::size_t i = 0; i < others.parts.size(); ++i) parts[i] += others.parts[i];
     rays += others.rays;
     invalid += others.invalid;
     continued += others.continued;
@@ -31,6 +32,7 @@ void Tally::write(ByteWriter& bytes) const {
     bytes.add_list(largest_direct);
     bytes.add_list(lacking);
     bytes.add_list(taken);
+    bytes.add_list(parts);
     for (const std::uint64_t number : {rays, invalid, continued, comparisons, samples}) bytes.add(number);
 }
 
@@ -41,12 +43,14 @@ Tally Tally::read(ByteReader& bytes) {
     tally.largest_direct = bytes.take_list<std::vector<float>>("the largest direct contributions");
     tally.lacking = bytes.take_list<std::vector<Rgb>>("the comparisons");
     tally.taken = bytes.take_list<std::vector<std::uint64_t>>("the samples of packets");
+    tally.parts = bytes.take_list<std::vector<Rgb>>("the channels");
     for (std::uint64_t* number :
          {&tally.rays, &tally.invalid, &tally.continued, &tally.comparisons, &tally.samples})
         *number = bytes.take<std::uint64_t>("the counts");
     const std::size_t readings = tally.sum.size();
     if (tally.largest.size() != readings || tally.largest_direct.size() != readings ||
-        (!tally.lacking.empty() && tally.lacking.size() != readings))
+        (!tally.lacking.empty() && tally.lacking.size() != readings) ||
+        (readings > 0 && tally.parts.size() % readings != 0))
         bytes.fail("the sums have different numbers of readings");
     return tally;
 }

@@ -61,9 +61,15 @@ struct Tally {
     std::uint64_t comparisons = 0;
     std::uint64_t samples = 0;
     std::vector<std::uint64_t> taken;  ///< samples, by packet (Batch::paces)
+    /// Channels x readings, where the problem has channels: what the sums consist of.
+    std::vector<Rgb> parts;
 
-    explicit Tally(std::size_t readings, std::size_t packets = 0)
-        : sum(readings), largest(readings), largest_direct(readings), taken(packets) {}
+    explicit Tally(std::size_t readings, std::size_t packets = 0, std::size_t channels = 0)
+        : sum(readings),
+          largest(readings),
+          largest_direct(readings),
+          taken(packets),
+          parts(channels * readings) {}
 
     /// Counts the samples of a batch whose contributions are added.
     void count(const Batch& batch);

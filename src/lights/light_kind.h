@@ -5,6 +5,7 @@
 
 #include <array>
 #include <concepts>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -70,6 +71,7 @@ struct IncidentLight {
     /// The approximate density of `direction`, as in the emitter's pdf_per_sr(): for weights against samples
     /// of other lights. Infinite for point sources.
     double pdf_per_sr = 0;
+    std::uint32_t light = 0;  ///< of Scene::lights; set by what chooses among lights
 };
 
 /// A receiving point. Without a normal it receives light from all directions, else from above the surface.

@@ -45,8 +45,10 @@ struct alignas(64) LaneLights::Chosen {
     std::array<Floats, kBands> emission;
     LaneMask is_point;
     Floats probability;
+    RayPacket::Words number;
 
-    void set(std::size_t lane, const Light& light) {
+    void set(std::size_t lane, const Light& light, std::uint32_t own_number) {
+        number[lane] = own_number;
         const auto copy = [lane](rays::LaneVectors& to, const LanePoint& from) {
             to.x[lane] = from.x, to.y[lane] = from.y, to.z[lane] = from.z;
         };
@@ -86,7 +88,7 @@ std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift, c
     }
     if (all.lights_.size() == 1) {
         Chosen only;
-        for (std::size_t i = 0; i < kPacketWidth; ++i) only.set(i, all.lights_[0]);
+        for (std::size_t i = 0; i < kPacketWidth; ++i) only.set(i, all.lights_[0], 0);
         only.probability.fill(1);
         all.only_ = std::make_shared<const Chosen>(only);
     }
@@ -128,7 +130,7 @@ void LaneLights::choose(const rays::SurfacePacket& at, const math::NumberPacket&
         float left = math::lane_unit_interval(numbers.hashed(i, kChoiceOfLight)) * total[i];
         std::size_t light = 0;
         while (light + 1 < lights_.size() && left >= rough[light][i]) left -= rough[light++][i];
-        chosen.set(i, lights_[light]);
+        chosen.set(i, lights_[light], static_cast<std::uint32_t>(light));
         chosen.probability[i] = total[i] > 0 ? rough[light][i] / total[i] : 0;
     }
 }
@@ -138,6 +140,7 @@ STILB_VECTORIZED void LaneLights::sample_chosen(const Chosen& __restrict chosen,
                                                 const math::NumberPacket& __restrict numbers,
                                                 LightPacket& __restrict light) const {
     const float least_size_m = least_size_m_;
+    light.light = chosen.number;
     for (int i = 0; i < kPacketWidth; ++i) {
         const LaneRectangle rectangle{{chosen.corner.x[i], chosen.corner.y[i], chosen.corner.z[i]},
                                       {chosen.u.x[i], chosen.u.y[i], chosen.u.z[i]},

@@ -28,6 +28,7 @@ struct alignas(64) LightPacket {
     rays::LaneVectors direction;                       ///< unit
     std::array<Floats, kBands> normal_illuminance_lx;  ///< 0 where no light arrives
     Floats inverse_pdf_sr;                             ///< 0 for points
+    RayPacket::Words light;                            ///< of Scene::lights
 };
 
 /// Immutable.

@@ -25,6 +25,7 @@ struct LightVertex {
     bool only_by_light = false;
     double favour = 1;  ///< as EmittedParticle's: the vertex counts so much more where some are selected
     double split = 1;   ///< the k of other connections over that of its own (weights.h)
+    std::uint32_t light = 0;  ///< that the particle left, of Scene::lights
 };
 
 /// Traces one light path. Absorption (Russian roulette with the surface's reflectance) comes before a vertex

@@ -111,7 +111,10 @@ EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const 
 
 std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,
                                                            const std::array<double, 2>& u) const {
-    return std::visit([&](const auto& emitter) { return emitter.sample_incident(at, u); }, emitters_[light]);
+    std::optional<IncidentLight> incident =
+        std::visit([&](const auto& emitter) { return emitter.sample_incident(at, u); }, emitters_[light]);
+    if (incident) incident->light = static_cast<std::uint32_t>(light);
+    return incident;
 }
 
 double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const {
@@ -262,9 +265,11 @@ double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from,
     return times_choice(pdf_of_outside_light_per_sr(direction, {from, normal}), outside_, from, normal);
 }
 
-Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const {
+Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving, LightParts* parts) const {
     Rgb sum;
-    for_each_emission(hit, leaving, [&](std::size_t, const Rgb& luminance) { sum += luminance; });
+    for_each_emission(hit, leaving, [&](std::size_t light, const Rgb& luminance) {
+        add_part(luminance, light, 0, sum, parts);
+    });
     return sum;
 }
 

@@ -12,6 +12,7 @@
 #include "math/sampling.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
+#include "transport/light_parts.h"
 #include "transport/light_tree.h"
 
 namespace stilb::transport {
@@ -96,8 +97,8 @@ class LightSampler {
     /// The same for sample_incident() with the light.
     double pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from) const;
 
-    /// Luminance that leaves `hit`, on an emitter, in a unit direction; zero elsewhere.
-    Rgb emitted_luminance(const rays::Hit& hit, const Vec3& leaving) const;
+    /// Luminance that leaves `hit`, on an emitter, in a unit direction; zero elsewhere. `parts`: may be null.
+    Rgb emitted_luminance(const rays::Hit& hit, const Vec3& leaving, LightParts* parts = nullptr) const;
     /// The same of the front of a light on a surface.
     Rgb front_luminance(std::size_t light, const Vec3& leaving) const;
     /// Luminance from outside of the scene along a ray that leaves it in a unit direction.
@@ -106,6 +107,8 @@ class LightSampler {
     double outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const;
     double pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
     bool has_light_from_outside() const { return outside_ != kNoLight; }
+    /// Its number. Precondition: there is one.
+    std::uint32_t light_from_outside() const { return outside_; }
     /// Whether the light of some lights is computed elsewhere.
     bool leaves_out_lights() const { return !made_elsewhere_.empty(); }
     /// Whether rays can meet light.

@@ -29,7 +29,9 @@ class LineOfSightFollower {
 
     /// `hit` is seen along `direction`.
     void follow(const rays::Hit& hit, const Vec3& direction, const Rgb& transmission, int reflections) {
-        sight.emission_cd_m2 += transmission * lights_.emitted_luminance(hit, -direction);
+        lights_.for_each_emission(hit, -direction, [&](std::size_t light, const Rgb& luminance) {
+            add(transmission * luminance, light, reflections);
+        });
         const Material& material = scene_.material(hit.material);
         if (!is_specular(material)) {
             sight.sub_points.push_back({hit, -direction, transmission, reflections});
@@ -47,14 +49,23 @@ class LineOfSightFollower {
             } else if (const auto next = first_met(branch.origin, branch.direction, caster_)) {
                 follow(*next, branch.direction, left, met);
             } else {
-                sight.emission_cd_m2 += left * lights_.outside_luminance(branch.direction);
+                add_outside(branch.direction, left, met);
             }
         }
+    }
+
+    void add_outside(const Vec3& direction, const Rgb& transmission, int reflections) {
+        if (lights_.has_light_from_outside())
+            add(transmission * lights_.outside_luminance(direction), lights_.light_from_outside(), reflections);
     }
 
     VisibleSurfaces sight;
 
   private:
+    void add(const Rgb& value, std::size_t light, int reflections) {
+        add_part(value, light, reflections, sight.emission_cd_m2, &sight.parts);
+    }
+
     const Scene& scene_;
     const rays::RayCaster& caster_;
     const LightSampler& lights_;
@@ -84,7 +95,7 @@ VisibleSurfaces trace_line_of_sight(const Measurand& luminance, const Scene& sce
     if (follower.sight.first) {
         follower.follow(*follower.sight.first, viewing_direction(luminance), Rgb::grey(1), 0);
     } else {
-        follower.sight.emission_cd_m2 = lights.outside_luminance(viewing_direction(luminance));
+        follower.add_outside(viewing_direction(luminance), Rgb::grey(1), 0);
     }
     std::stable_sort(follower.sight.sub_points.begin(), follower.sight.sub_points.end(),
                      [](const SubPoint& a, const SubPoint& b) {

@@ -33,6 +33,7 @@ struct VisibleSurfaces {
     std::vector<SubPoint> sub_points;  ///< the one with most light first
     std::vector<FaintRay> faint;
     Rgb emission_cd_m2;  ///< emission seen on surfaces and from outside, without the faint branches
+    LightParts parts;    ///< of the emission
     /// The sub-point with most light, or the mirror at which the limit of reflections ends the
     /// line of sight; nothing where it leaves the scene.
     std::optional<Vec3> end;

@@ -44,6 +44,7 @@ struct alignas(64) ConnectionPacket {
     RayPacket segments;
     LaneMask lanes{};
     Bands luminance_cd_m2;
+    RayPacket::Words light;  ///< of Scene::lights
 };
 
 /// Connects the lanes that are set with the sampled light, weighted against the reflected ray's density.

@@ -9,19 +9,6 @@
 #include "transport/weights.h"
 
 namespace stilb::transport {
-namespace {
-
-/// The MIS weight of light that a path finds by itself. `other_pdf_per_sr`: the density of next-event
-/// estimation at the previous vertex, if that could have found it.
-template <typename Pdf>
-double share_of(const PreviousVertex& previous_vertex, const Pdf& other_pdf_per_sr) {
-    const double pdf_per_sr = previous_vertex.pdf_per_sr;
-    if (pdf_per_sr == 0 || std::isinf(pdf_per_sr)) return pdf_per_sr == 0 ? 0 : 1;
-    return balance(pdf_per_sr, other_pdf_per_sr());
-}
-
-}  // namespace
-
 PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights,
                        const StoredReflection* stored)
     : scene_(scene),
@@ -47,7 +34,8 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
     if (paths.empty()) return;
     std::vector<Rgb> luminances_cd_m2(paths.size());
-    PathWave(*this, paths[0].stream.sobol_dimensions(), luminances_cd_m2).trace_from_hits(paths, first);
+    PathWave wave(*this, paths[0].stream.sobol_dimensions(), luminances_cd_m2);
+    wave.trace_from_hits(paths, first);
     for (std::size_t i = 0; i < paths.size(); ++i) paths[i].luminance_cd_m2 += luminances_cd_m2[i];
 }
 
@@ -62,8 +50,8 @@ void PathTracer::follow(Path& path) const {
         add_stored_reflection({&path, 1}, rays::Coherence::scattered);
         const Step step = take_step(path);
         if (step.connection) {
-            path.luminance_cd_m2 +=
-                step.connection->luminance_cd_m2 * caster_.transmittance(step.connection->segment);
+            path.add(step.connection->luminance_cd_m2 * caster_.transmittance(step.connection->segment),
+                     step.connection->light);
         }
         if (!step.ray) return;
         const auto next = caster_.closest(step.ray->origin, step.ray->direction);
@@ -90,7 +78,7 @@ PathTracer::Step PathTracer::take_step(Path& path) const {
     const Material& material = this->material(path.hit);
     if (is_specular(material)) return {std::nullopt, pass_specular(path, material)};
     if (path.reflections_left == 0) return {};
-    --path.reflections_left;
+    --path.reflections_left, ++path.reflections;
     return reflect(path, material);
 }
 
@@ -111,7 +99,7 @@ std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& m
     path.throughput *= branch->share * (branch->luminance_factor / survival);
     if (!branch->straight) {
         if (path.reflections_left == 0) return std::nullopt;
-        --path.reflections_left;
+        --path.reflections_left, ++path.reflections;
         path.previous_vertex = {};
     }
     return rays::Ray{branch->origin, branch->direction};
@@ -129,7 +117,8 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
         const auto [brdf_per_sr, pdf_per_sr] = surface.evaluate(in, out);
         const double weight = balance(light->pdf_per_sr, pdf_per_sr);
         step.connection = {{hit.lifted, light->source_point},
-                           path.throughput * brdf_per_sr * (in.z * weight) * light->normal_illuminance_lx};
+                           path.throughput * brdf_per_sr * (in.z * weight) * light->normal_illuminance_lx,
+                           light->light};
     }
     const double survival = patient_survival_probability(path.throughput, reflectance_bound(material));
     if (path.stream.next() >= survival) return step;
@@ -150,30 +139,16 @@ double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, std::size_t
     return double{lane_lights_->pdf_per_sr(light, emitter.position - center, position - center, normal)};
 }
 
-Rgb PathTracer::emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
-                                 const Vec3& leaving) const {
-    Rgb sum;
-    lights_.for_each_emission(emitter, leaving, [&](std::size_t light, const Rgb& emission) {
-        sum +=
-            emission * share_of(previous_vertex, [&] { return pdf_per_sr(previous_vertex, light, emitter); });
-    });
-    return sum;
-}
-
-Rgb PathTracer::outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const {
-    const Rgb luminance = lights_.outside_luminance(direction);
-    if (!(luminance.max() > 0)) return {};
-    return luminance * share_of(previous_vertex, [&] {
-               return lights_.outside_pdf_per_sr(direction, previous_vertex.position, previous_vertex.normal);
-           });
-}
-
 void PathTracer::leave(Path& path, const Vec3& direction) const {
-    path.luminance_cd_m2 += path.throughput * outside_light_towards(path.previous_vertex, direction);
+    visit_outside_light_towards(
+        path.previous_vertex, direction,
+        [&](const Rgb& luminance, std::size_t light) { path.add(path.throughput * luminance, light); });
 }
 
 void PathTracer::arrive(Path& path, const Vec3& direction, const rays::Hit& next) const {
-    path.luminance_cd_m2 += path.throughput * emission_towards(path.previous_vertex, next, -direction);
+    for_each_emission_towards(
+        path.previous_vertex, next, -direction,
+        [&](const Rgb& luminance, std::size_t light) { path.add(path.throughput * luminance, light); });
     path.hit = next;
     path.outgoing = -direction;
 }
@@ -189,20 +164,27 @@ std::optional<IncidentLight> PathTracer::sample_light(const rays::Hit& surface,
 
 Rgb PathTracer::luminance_behind(const rays::Hit& hit, const Vec3& direction,
                                  const PreviousVertex& previous_vertex, int max_reflections,
-                                 math::SampleStream& stream) const {
+                                 math::SampleStream& stream, LightParts* parts) const {
     Path path{hit, -direction, stream, max_reflections};
     path.previous_vertex = previous_vertex;
+    path.parts = parts;
     follow(path);
     stream = path.stream;
     return path.luminance_cd_m2;
 }
 
 Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex,
-                                   int max_reflections, math::SampleStream& stream) const {
+                                   int max_reflections, math::SampleStream& stream,
+                                   LightParts* parts) const {
+    Rgb sum;
+    const auto add = [&](const Rgb& luminance, std::size_t light) { add_part(luminance, light, 0, sum, parts); };
     const auto hit = caster_.closest(ray.origin, ray.direction);
-    if (!hit) return outside_light_towards(previous_vertex, ray.direction);
-    return emission_towards(previous_vertex, *hit, -ray.direction) +
-           luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream);
+    if (!hit) {
+        visit_outside_light_towards(previous_vertex, ray.direction, add);
+        return sum;
+    }
+    for_each_emission_towards(previous_vertex, *hit, -ray.direction, add);
+    return sum + luminance_behind(*hit, ray.direction, previous_vertex, max_reflections, stream, parts);
 }
 
 }  // namespace stilb::transport

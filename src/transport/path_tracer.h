@@ -11,14 +11,17 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "transport/lane_lights.h"
+#include "transport/light_parts.h"
 #include "transport/light_sampler.h"
 #include "transport/path_packet.h"
+#include "transport/weights.h"
 
 namespace stilb::transport {
 
@@ -43,6 +46,14 @@ struct Path {
     Rgb throughput = Rgb::grey(1);
     Rgb luminance_cd_m2{};  ///< so far; emission of the first hit is left out
     PreviousVertex previous_vertex{};
+    /// What the luminance consists of, with the reflections on the path so far: null where nobody asks.
+    LightParts* parts = nullptr;
+    int reflections = 0;
+
+    /// Adds light that arrives from a lamp.
+    void add(const Rgb& value, std::size_t light) {
+        add_part(value, light, reflections, luminance_cd_m2, parts);
+    }
 };
 
 /// The precomputed first reflection of lights that path tracing leaves out.
@@ -65,6 +76,7 @@ class PathTracer {
     /// Follows paths to their ends, side by side, and adds to their luminances; the rest of a path is used
     /// up. Their streams have as many Sobol' dimensions. `first`: coherence of the rays to their first hits,
     /// and of the shadow rays there.
+    /// Paths with parts get these, too; then all of them have some, and as many reflections left.
     void trace(std::span<Path> paths, rays::Coherence first) const;
     /// The same for paths of which the rays to their first hits are known, in the lanes that are set; adds
     /// the light along the ray of path `number` to that element of `luminances_cd_m2`, emission of the first
@@ -80,24 +92,24 @@ class PathTracer {
     std::optional<IncidentLight> sample_light(const rays::Hit& surface, math::SampleStream& stream) const;
 
     /// One sample of the luminance [cd/m2] that arrives along a ray with the hit `hit`, without the emission
-    /// of `hit` itself. Uses up numbers of the stream.
+    /// of `hit` itself. Uses up numbers of the stream. `parts`: may be null, here and below.
     Rgb luminance_behind(const rays::Hit& hit, const Vec3& direction, const PreviousVertex& previous_vertex,
-                         int max_reflections, math::SampleStream& stream) const;
+                         int max_reflections, math::SampleStream& stream, LightParts* parts = nullptr) const;
     /// The same without all directly visible emission: that is direct light.
     Rgb luminance_without_direct(const rays::Hit& hit, const Vec3& direction, int max_reflections,
-                                 math::SampleStream& stream) const {
-        return luminance_behind(hit, direction, kDirectIsKnown, max_reflections, stream);
+                                 math::SampleStream& stream, LightParts* parts = nullptr) const {
+        return luminance_behind(hit, direction, kDirectIsKnown, max_reflections, stream, parts);
     }
     /// All the light along a ray.
     Rgb luminance(const rays::Hit& hit, const Vec3& direction, int max_reflections,
-                  math::SampleStream& stream) const {
-        return lights_.emitted_luminance(hit, -direction) +
-               luminance_behind(hit, direction, {}, max_reflections, stream);
+                  math::SampleStream& stream, LightParts* parts = nullptr) const {
+        return lights_.emitted_luminance(hit, -direction, parts) +
+               luminance_behind(hit, direction, {}, max_reflections, stream, parts);
     }
     /// The same, where emission directly visible from `previous_vertex` is weighted against next-event
     /// estimation there.
     Rgb incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex, int max_reflections,
-                           math::SampleStream& stream) const;
+                           math::SampleStream& stream, LightParts* parts = nullptr) const;
 
     const Material& material(const rays::Hit& hit) const { return scene_.material(hit.material); }
 
@@ -117,6 +129,7 @@ class PathTracer {
     struct Connection {
         rays::Segment segment;
         Rgb luminance_cd_m2;
+        std::uint32_t light = 0;
     };
     /// The next step of a path at its present vertex: it ends if there is no ray.
     struct Step {
@@ -132,10 +145,14 @@ class PathTracer {
     void arrive(Path& path, const Vec3& direction, const rays::Hit& next) const;
     /// Continues where the step's ray leaves the scene.
     void leave(Path& path, const Vec3& direction) const;
-    /// Emission that a path finds, by its MIS weight; likewise light from outside.
-    Rgb emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
-                         const Vec3& leaving) const;
-    Rgb outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction) const;
+    /// Calls `visit(luminance, light)` for emission that a path finds, by its MIS weight; likewise for light
+    /// from outside.
+    template <typename Visit>
+    void for_each_emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
+                                   const Vec3& leaving, const Visit& visit) const;
+    template <typename Visit>
+    void visit_outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction,
+                                     const Visit& visit) const;
     /// The density of next-event estimation at the previous vertex.
     double pdf_per_sr(const PreviousVertex& previous_vertex, std::size_t light,
                       const rays::Hit& emitter) const;
@@ -150,5 +167,37 @@ class PathTracer {
     std::vector<bool> may_emit_;                  ///< by ObjectId
     std::optional<LaneLights> lane_lights_;
 };
+
+/// The MIS weight of light that a path finds by itself. `other_pdf_per_sr`: the density of next-event
+/// estimation at the previous vertex, if that could have found it.
+template <typename Pdf>
+double share_of(const PreviousVertex& previous_vertex, const Pdf& other_pdf_per_sr) {
+    const double pdf_per_sr = previous_vertex.pdf_per_sr;
+    if (pdf_per_sr == 0 || std::isinf(pdf_per_sr)) return pdf_per_sr == 0 ? 0 : 1;
+    return balance(pdf_per_sr, other_pdf_per_sr());
+}
+
+template <typename Visit>
+void PathTracer::for_each_emission_towards(const PreviousVertex& previous_vertex, const rays::Hit& emitter,
+                                           const Vec3& leaving, const Visit& visit) const {
+    lights_.for_each_emission(emitter, leaving, [&](std::size_t light, const Rgb& emission) {
+        visit(
+            emission * share_of(previous_vertex, [&] { return pdf_per_sr(previous_vertex, light, emitter); }),
+            light);
+    });
+}
+
+template <typename Visit>
+void PathTracer::visit_outside_light_towards(const PreviousVertex& previous_vertex, const Vec3& direction,
+                                             const Visit& visit) const {
+    const Rgb luminance = lights_.outside_luminance(direction);
+    if (!(luminance.max() > 0)) return;
+    visit(luminance * share_of(previous_vertex,
+                               [&] {
+                                   return lights_.outside_pdf_per_sr(direction, previous_vertex.position,
+                                                                     previous_vertex.normal);
+                               }),
+          lights_.light_from_outside());
+}
 
 }  // namespace stilb::transport

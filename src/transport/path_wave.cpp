@@ -45,6 +45,7 @@ void PathWave::trace_from_rays(std::span<PathPacket> packets, std::span<const La
 
 void PathWave::trace_from_hits(std::span<const Path> paths, rays::Coherence coherence) {
     count_ = paths.size();
+    if (paths[0].parts) asked_ = paths;
     std::vector<PathPacket> packets(packets_in_use());
     packets_ = packets;
     for (std::size_t n = 0; n < paths.size(); ++n) {
@@ -103,10 +104,12 @@ void PathWave::reflect_plain(PathPacket& paths, LaneMask& lanes, ConnectionPacke
         const math::NumberPacket numbers = next_four(paths.streams, sobol_dimensions_);
         tracer_.lane_lights_->sample(paths.surface, numbers, light);
         connect_diffuse(paths, reflectance, light, lanes, connections);
+        connections.light = light.light;
         reflect_diffuse(numbers, reflectance, lanes, paths);
     } else {
         sample_lights(paths, lanes, light);
         connect_diffuse(paths, reflectance, light, lanes, connections);
+        connections.light = light.light;
         skip_four(paths.streams);
         reflect_diffuse(next_four(paths.streams, sobol_dimensions_), reflectance, lanes, paths);
     }
@@ -126,6 +129,7 @@ void PathWave::sample_lights(const PathPacket& paths, const LaneMask& lanes, Lig
         light.direction.set(i, incident->direction);
         set_rgb(light.normal_illuminance_lx, i, incident->normal_illuminance_lx);
         light.inverse_pdf_sr[i] = static_cast<float>(1 / incident->pdf_per_sr);
+        light.light[i] = incident->light;
     }
 }
 
@@ -135,11 +139,13 @@ void PathWave::reflect_generally(PathPacket& paths, std::size_t lane, LaneMask& 
     Path& path = general_[paths.general[lane]];
     const PathTracer::Step step = tracer_.take_step(path);
     luminances_cd_m2_[paths.number[lane]] += path.luminance_cd_m2;
+    paths.reflections_left[lane] = static_cast<std::uint32_t>(path.reflections_left);
     if (step.connection) {
         const auto& [from, to] = step.connection->segment;
         connections.segments.set(lane, from - center, to - from, 1);
         connections.lanes[lane] = -1;
         set_rgb(connections.luminance_cd_m2, lane, step.connection->luminance_cd_m2);
+        connections.light[lane] = step.connection->light;
     }
     lanes[lane] = step.ray ? -1 : 0;
     if (!step.ray) return;
@@ -162,7 +168,7 @@ void PathWave::connect(const PathPacket& paths, ConnectionPacket& connections, r
             const Vec3 offset{segments.direction_x[i], segments.direction_y[i], segments.direction_z[i]};
             luminance *= caster.transmittance({from, from + offset});
         }
-        luminances_cd_m2_[paths.number[i]] += luminance;
+        add(paths, i, luminance, connections.light[i]);
     }
 }
 
@@ -184,9 +190,12 @@ void PathWave::arrive(PathPacket& paths, LaneMask& lanes, rays::Coherence cohere
     tracer_.caster_.surfaces(hits_, paths.surface);
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
         if (lanes[i] == 0) continue;
+        const auto add_arriving = [&](const Rgb& arriving_cd_m2, std::size_t light) {
+            add(paths, i, rgb_at(paths.throughput, i) * arriving_cd_m2, light);
+        };
         if (hits_.object[i] == rays::kNothing) {
             const Vec3 direction = normalized(paths.direction.at(i));
-            add(paths, i, tracer_.outside_light_towards(previous_vertex(paths, i), direction));
+            tracer_.visit_outside_light_towards(previous_vertex(paths, i), direction, add_arriving);
             lanes[i] = 0;
             continue;
         }
@@ -195,13 +204,19 @@ void PathWave::arrive(PathPacket& paths, LaneMask& lanes, rays::Coherence cohere
         if (is_plain && !emits) continue;
         const rays::Hit hit = tracer_.caster_.hit(hits_, i);
         if (emits)
-            add(paths, i, tracer_.emission_towards(previous_vertex(paths, i), hit, -paths.direction.at(i)));
+            tracer_.for_each_emission_towards(previous_vertex(paths, i), hit, -paths.direction.at(i),
+                                              add_arriving);
         if (!is_plain) make_general(paths, i, hit);
     }
 }
 
-void PathWave::add(const PathPacket& paths, std::size_t lane, const Rgb& arriving_cd_m2) {
-    luminances_cd_m2_[paths.number[lane]] += rgb_at(paths.throughput, lane) * arriving_cd_m2;
+void PathWave::add(const PathPacket& paths, std::size_t lane, const Rgb& luminance_cd_m2, std::size_t light) {
+    const std::uint32_t number = paths.number[lane];
+    luminances_cd_m2_[number] += luminance_cd_m2;
+    if (asked_.empty()) return;
+    const int reflections =
+        asked_[number].reflections_left - static_cast<int>(paths.reflections_left[lane]);
+    asked_[number].parts->push_back({luminance_cd_m2, static_cast<std::uint32_t>(light), reflections});
 }
 
 PreviousVertex PathWave::previous_vertex(const PathPacket& paths, std::size_t lane) const {

@@ -44,8 +44,8 @@ class PathWave {
     /// Traces the rays of all paths to their next vertices.
     void arrive(rays::Coherence coherence);
     void arrive(PathPacket& paths, LaneMask& lanes, rays::Coherence coherence);
-    /// Adds light that arrives against the ray to a path's vertex.
-    void add(const PathPacket& paths, std::size_t lane, const Rgb& arriving_cd_m2);
+    /// Adds light to the luminance of a path at its vertex.
+    void add(const PathPacket& paths, std::size_t lane, const Rgb& luminance_cd_m2, std::size_t light);
     /// Prepares a vertex for reflect_generally().
     void make_general(PathPacket& paths, std::size_t lane, const rays::Hit& hit);
     void make_general(PathPacket& paths, std::size_t lane, const Path& path);
@@ -59,7 +59,8 @@ class PathWave {
     unsigned sobol_dimensions_;
     std::span<Rgb> luminances_cd_m2_;
     std::span<PathPacket> packets_;
-    std::size_t count_ = 0;      ///< of paths: those of the first lanes
+    std::span<const Path> asked_;  ///< the paths where parts are asked for; else empty
+    std::size_t count_ = 0;        ///< of paths: those of the first lanes
     std::vector<Path> general_;  ///< vertices that are reflected one by one
     std::vector<LaneMask> going_;
     rays::RayHitPacket hits_;

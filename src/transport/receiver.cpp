@@ -161,42 +161,45 @@ namespace {
 
 /// The emitters' light along a ray in proportion to the response; combined with samples of each light.
 Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
-                       math::SampleStream& stream) {
+                       math::SampleStream& stream, LightParts* parts) {
     const auto [u1, u2] = stream.next_two();
     const auto sample = receiver.sample(u1, u2);
     if (!sample) return {};
     const auto seen = caster.seen({receiver.lifted(), sample->direction});
     const ReceivingPoint at = receiving_point(receiver);
     Rgb sum;
-    const auto add = [&](const Rgb& emission, double light_pdf) {
-        sum += sample->weight * (seen.transmittance * emission) * balance(sample->pdf_per_sr, light_pdf);
+    const auto add = [&](const Rgb& emission, double light_pdf, std::size_t light) {
+        add_part(sample->weight * (seen.transmittance * emission) * balance(sample->pdf_per_sr, light_pdf),
+                 light, 0, sum, parts);
     };
     if (seen.hit) {
         lights.for_each_emission(*seen.hit, -sample->direction, [&](std::size_t light, const Rgb& emission) {
-            add(emission, lights.extended_pdf_per_sr(light, *seen.hit, at));
+            add(emission, lights.extended_pdf_per_sr(light, *seen.hit, at), light);
         });
     } else if (const Rgb emission = lights.outside_luminance(sample->direction); emission.max() > 0) {
-        add(emission, lights.pdf_of_outside_light_per_sr(sample->direction, at));
+        add(emission, lights.pdf_of_outside_light_per_sr(sample->direction, at), lights.light_from_outside());
     }
     return sum;
 }
 
 }  // namespace
 
-Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights) {
+Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
+                       LightParts* parts) {
     Rgb sum;
     for (std::size_t i = 0; i < lights.count(); ++i) {
         if (!lights.is_point(i)) continue;
         if (const auto light = lights.sample_incident(i, receiving_point(receiver), {})) {
             const Rgb received = illuminance_lx(*light, receiver, caster);
-            if (received.max() > 0) sum += received * receiver.response(light->direction).value;
+            if (received.max() > 0)
+                add_part(received * receiver.response(light->direction).value, i, 0, sum, parts);
         }
     }
     return sum;
 }
 
 Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
-                             const LightSampler& lights, math::SampleStream& stream) {
+                             const LightSampler& lights, math::SampleStream& stream, LightParts* parts) {
     const bool directional = !receiver.constant_response();
     Rgb sum;
     lights.sample_extended(receiving_point(receiver), stream, [&](const IncidentLight& light) {
@@ -204,10 +207,10 @@ Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& ca
         if (!(received.max() > 0)) return;
         const double weight =
             directional ? balance(light.pdf_per_sr, receiver.pdf_per_sr(light.direction)) : 1;
-        sum += received * receiver.response(light.direction).value * weight;
+        add_part(received * receiver.response(light.direction).value * weight, light.light, 0, sum, parts);
     });
     if (directional && lights.has_visible_lights())
-        sum += sample_by_response(receiver, caster, lights, stream);
+        sum += sample_by_response(receiver, caster, lights, stream, parts);
     return sum;
 }
 

@@ -54,6 +54,8 @@ class Receiver {
 
     /// The response where it does not depend on direction.
     const std::optional<Rgb>& constant_response() const { return constant_response_; }
+    /// From here to the sensor.
+    int reflections() const { return reflections_; }
     struct Response {
         Rgb value;            ///< 1, or [1/sr]
         double relative = 1;  ///< pi f / albedo: s of weights.h; 1 where the response is constant
@@ -115,13 +117,16 @@ ReceivingPoint receiving_point(const Receiver& receiver);
 /// distance are those of the point itself; only the shadow ray starts lifted.
 Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster);
 
-/// The light from all point lights at a receiver: exact, one shadow ray each.
-Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights);
+/// The light from all point lights at a receiver: exact, one shadow ray each. `parts`: may be null, here and
+/// below.
+Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
+                       LightParts* parts = nullptr);
 
 /// One sample of the light from all other lights at a receiver: each separately and, where the response
 /// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
 /// heuristic.
 Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
-                             const LightSampler& lights, math::SampleStream& stream);
+                             const LightSampler& lights, math::SampleStream& stream,
+                             LightParts* parts = nullptr);
 
 }  // namespace stilb::transport

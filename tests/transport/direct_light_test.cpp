@@ -195,7 +195,7 @@ TEST(DirectLight, NothingArrivesInTheLampsPlaneAndBehindIt) {
     DirectLight::TileLight light{};
     auto own = streams(1, 0);
     add_all(s.direct, s.receivers, own, light);
-    for (const Rgb& received : light) EXPECT_EQ(received.max(), 0);
+    for (const Rgb& received : light.sum) EXPECT_EQ(received.max(), 0);
 }
 
 TEST(DirectLight, ThinOccludersAreSampled) {

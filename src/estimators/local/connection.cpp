@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 #include <numeric>
+#include <utility>
 
 #include "base/rays.h"
 #include "materials/diffuse.h"
@@ -80,11 +81,18 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
 }
 
 /// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
-void flush(const PointTile& tile, TileSums& sums, Tally& readings) {
+/// `channels`: null, or those of the readings; all vertices of the block then are in the channel of `node`.
+void flush(const PointTile& tile, TileSums& sums, Tally& readings,
+           const transport::Channels* channels = nullptr, const transport::LightVertex* node = nullptr) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Rgb response = tile.response_of(i);
         const Rgb received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
         readings.sum[tile.readings[i]] += response * received;
+        if (channels) {
+            const transport::LightPart part{received, node->light, node->reflections};
+            channels->add({&part, 1}, response, tile.receivers[i].reflections(), tile.readings[i],
+                          readings.parts);
+        }
         double& largest = readings.largest[tile.readings[i]];
         largest = std::max(largest, response.luminance() * double{sums.largest[i]});
     }
@@ -112,6 +120,14 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Tally& 
     connected_vertices.reserve(nodes.size());
     for (const transport::LightVertex& node : nodes)
         connected_vertices.push_back(connected_vertex(node, caster_.center()));
+    const auto channel_of = [&](const ConnectedVertex& vertex) {
+        return std::pair(channels_->group_of_light[vertex.node->light], vertex.node->reflections);
+    };
+    if (channels_) std::ranges::stable_sort(connected_vertices, {}, channel_of);
+    const auto ends_channel = [&](std::size_t n) {
+        return channels_ && n + 1 < connected_vertices.size() &&
+               channel_of(connected_vertices[n]) != channel_of(connected_vertices[n + 1]);
+    };
     RayPacket packet;
     LaneMask lanes;
     alignas(64) Floats g_per_m2;
@@ -129,7 +145,8 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Tally& 
                     add_visible(node, tile, packet, lanes, g_per_m2, tile_sums);
                 }
             }
-            if (ends_block(n, connected_vertices.size())) flush(tile, tile_sums, sums);
+            if (ends_block(n, connected_vertices.size()) || ends_channel(n))
+                flush(tile, tile_sums, sums, channels_, node.node);
         }
     }
 }

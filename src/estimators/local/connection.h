@@ -21,9 +21,10 @@ class Connections {
   public:
     /// An infinite k of a tile's receiver gives w = 1 there (plain local estimation). Vertices that path
     /// tracing cannot find (LightVertex::only_by_light) have w = 1 for any k.
+    /// `channels`: null, or those of the tallies.
     Connections(const rays::RayCaster& caster, std::span<const PointTile> tiles,
-                const Monitor& monitor = Monitor::none())
-        : caster_(caster), tiles_(tiles), monitor_(monitor) {}
+                const Monitor& monitor = Monitor::none(), const transport::Channels* channels = nullptr)
+        : caster_(caster), tiles_(tiles), monitor_(monitor), channels_(channels) {}
 
     /// Adds the contributions of the vertices to each receiver, and keeps the largest single ones. Counts
     /// rays. Throws Cancelled, with unfinished sums, where the monitor ends the run.
@@ -33,6 +34,7 @@ class Connections {
     const rays::RayCaster& caster_;
     std::span<const PointTile> tiles_;
     const Monitor& monitor_;
+    const transport::Channels* channels_;
 };
 
 /// A point that sends the same light in all directions, in single precision.

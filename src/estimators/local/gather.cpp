@@ -98,16 +98,22 @@ class SharedPoint {
         return sum;
     }
 
-    /// Adds to the readings the light that comes to y from `direction`, given its illuminance on a
-    /// surface across it, over the density of y.
-    void reflect(const Vec3& direction, const Rgb& normal_illuminance, Tally& sums) const {
+    /// Adds to the readings the light that comes to y from `direction`, given its illuminance on a surface
+    /// across it, over the density of y: that is `weight` times its parts. `channels`: null, or those of the
+    /// readings.
+    void reflect(const Vec3& direction, const Rgb& normal_illuminance, std::span<const transport::LightPart> parts,
+                 double weight, const transport::Channels* channels, Tally& sums) const {
         const Vec3 in = surface_.frame().to_local(direction);
         for_each_lane([&](std::size_t i) {
+            const transport::Receiver& receiver = tile_.receivers[i];
             const Rgb brdf = surface_.brdf_per_sr(in, out_[i]);
             const double gathered = share_at(i)(
                 transport::bounding_brdf(transport::relative_brdf(surface_.material(), brdf), tile_.choice));
-            sums.add(tile_.receivers[i].reading(),
-                     normal_illuminance * brdf * response_[i] * (in.z * double{g_per_m2_[i]} * gathered));
+            const double factor = in.z * double{g_per_m2_[i]} * gathered;
+            sums.add(receiver.reading(), normal_illuminance * brdf * response_[i] * factor);
+            if (channels)
+                channels->add(parts, brdf * response_[i] * (factor * weight), receiver.reflections() + 1,
+                              receiver.reading(), sums.parts);
         });
     }
 
@@ -180,9 +186,14 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
         const auto hit = caster_.closest(receiver.lifted(), sample->direction);
         if (!hit) continue;
         if (is_specular(tracer_.material(*hit))) {
+            transport::LightParts parts;
             const Rgb luminance =
-                tracer_.luminance_without_direct(*hit, sample->direction, tile.reflections_left[i], stream);
+                tracer_.luminance_without_direct(*hit, sample->direction, tile.reflections_left[i], stream,
+                                                 channels_ ? &parts : nullptr);
             sums.add(receiver.reading(), weight * sample->weight * luminance);
+            if (channels_)
+                channels_->add(parts, weight * sample->weight, receiver.reflections(), receiver.reading(),
+                               sums.parts);
         } else {
             share_out(*hit, tile, i, stream, weight, sums);
         }
@@ -205,16 +216,22 @@ void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t 
             std::isinf(light_density)
                 ? 1
                 : light_density / (light_density + kBeams * shared.beam_density(light->direction));
-        shared.reflect(light->direction, light->normal_illuminance_lx * (weight * share / ray_density), sums);
+        const double of_light = weight * share / ray_density;
+        const transport::LightPart part{light->normal_illuminance_lx, light->light, 0};
+        shared.reflect(light->direction, light->normal_illuminance_lx * of_light, {&part, 1}, of_light,
+                       channels_, sums);
     }
     for (int i = 0; i < kBeams; ++i) {
         const auto beam = shared.sample_beam(own, stream);
         if (!beam) continue;
         const transport::PreviousVertex previous_vertex{kBeams * beam->density / ray_density, hit.position,
                                                         hit.normal};
+        transport::LightParts parts;
         const Rgb luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
-                                                         tile.reflections_left[own] - 1, stream);
-        shared.reflect(beam->direction, luminance * (weight * beam->weight / (kBeams * beam->density)), sums);
+                                                         tile.reflections_left[own] - 1, stream,
+                                                         channels_ ? &parts : nullptr);
+        const double of_beam = weight * beam->weight / (kBeams * beam->density);
+        shared.reflect(beam->direction, luminance * of_beam, parts, of_beam, channels_, sums);
     }
 }
 }  // namespace stilb::estimators

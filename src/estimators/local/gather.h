@@ -27,8 +27,13 @@ class Gather {
   public:
     Gather(const rays::RayCaster& caster, const transport::PathTracer& tracer,
            std::span<const PointTile> tiles, std::span<const SplitPlan> plans,
-           const Monitor& monitor = Monitor::none())
-        : caster_(caster), tracer_(tracer), tiles_(tiles), plans_(plans), monitor_(monitor) {}
+           const Monitor& monitor = Monitor::none(), const transport::Channels* channels = nullptr)
+        : caster_(caster),
+          tracer_(tracer),
+          tiles_(tiles),
+          plans_(plans),
+          monitor_(monitor),
+          channels_(channels) {}
 
     /// One round per so many light paths of the batch as the plan says, with their weight. Throws Cancelled,
     /// with unfinished sums, where the monitor ends the run.
@@ -45,6 +50,7 @@ class Gather {
     std::span<const PointTile> tiles_;
     std::span<const SplitPlan> plans_;
     const Monitor& monitor_;
+    const transport::Channels* channels_;  ///< null, or those of the tallies
 };
 
 }  // namespace stilb::estimators

@@ -74,6 +74,7 @@ class LocalReadings {
     /// `guide`: may be null.
     LocalReadings(const LocalTransport& transport, const Problem& problem, const GuidedLight* guide)
         : transport_(transport),
+          channels_(problem.channels),
           seen_(receive(problem.measurands, guide)),
           stands_for_(problem.stands_for),
           paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(all_receivers()) : 1),
@@ -82,8 +83,9 @@ class LocalReadings {
           plans_(plans(problem)),
           tiles_(tiles_of(connected_receivers(), constants_per_m2(plans_.of_receivers), transport_.caster,
                           transport_.max_reflections)),
-          connections_(transport_.caster, tiles_, transport_.monitor),
-          gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor) {
+          connections_(transport_.caster, tiles_, transport_.monitor, channels_),
+          gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor,
+                  channels_) {
         if (!is_guided_) return;
         guided_.emplace(*guide, seen_.receivers, seen_.dark, transport_.monitor);
         guided_->add_known(seen_.known_part);
@@ -107,6 +109,7 @@ class LocalReadings {
     }
 
     std::span<const Rgb> known_part() const { return seen_.known_part; }
+    std::span<const Rgb> known_parts() const { return seen_.known_parts; }
     std::span<const std::optional<Vec3>> sight_ends() const { return seen_.ends; }
     bool is_met_by_chance(const rays::Hit& place) const {
         return guided_ && guided_->is_met_by_chance(place);
@@ -189,13 +192,14 @@ class LocalReadings {
             transport::FaintRay branch;
         };
         std::vector<Faint> faint;
-        std::vector<Rgb> known_part;
+        std::vector<Rgb> known_part, known_parts;
         std::vector<std::optional<Vec3>> ends;  ///< of lines of sight
         transport::DirectLight::Prepared direct;
     };
     Reception receive(std::span<const Measurand> measurands, const GuidedLight* guide) const {
         Reception seen;
         seen.known_part.resize(measurands.size());
+        if (channels_) seen.known_parts.resize(channels_->count() * measurands.size());
         seen.ends.resize(measurands.size());
         for (std::uint32_t reading = 0; reading < measurands.size(); ++reading) {
             const Measurand& measurand = measurands[reading];
@@ -207,14 +211,19 @@ class LocalReadings {
                 trace_line_of_sight(measurand, transport_.scene, transport_.caster, transport_.lights,
                                     transport_.max_reflections);
             seen.ends[reading] = sight.end;
+            transport::LightParts parts = sight.parts;
             seen.known_part[reading] = sight.emission_cd_m2;
             for (const transport::FaintRay& branch : sight.faint) {
                 seen.faint.push_back({reading, branch});
                 if (transport_.lights.has_light_from_outside() &&
-                    !transport_.caster.closest(branch.origin, branch.direction))
-                    seen.known_part[reading] +=
-                        branch.transmission * transport_.lights.outside_luminance(branch.direction);
+                    !transport_.caster.closest(branch.origin, branch.direction)) {
+                    transport::add_part(
+                        branch.transmission * transport_.lights.outside_luminance(branch.direction),
+                        transport_.lights.light_from_outside(), branch.reflections, seen.known_part[reading],
+                        &parts);
+                }
             }
+            if (channels_) channels_->add(parts, Rgb::grey(1), 0, reading, seen.known_parts);
             for (const transport::SubPoint& sub_point : sight.sub_points) {
                 if (sub_point.reflections == transport_.max_reflections) continue;
                 seen.receivers.emplace_back(reading, sub_point,
@@ -223,9 +232,16 @@ class LocalReadings {
         }
         seen.receivers = sorted_receivers(std::move(seen.receivers));
         if (guide) seen.dark = guide->put_dark_last(seen.receivers, transport_.monitor);
-        seen.direct = transport_.direct.prepare(seen.receivers, transport_.monitor);
-        for (std::size_t j = 0; j < seen.receivers.size(); ++j)
-            seen.known_part[seen.receivers[j].reading()] += seen.direct.known[j];
+        using transport::PartsOfLight;
+        seen.direct = transport_.direct.prepare(seen.receivers, transport_.monitor,
+                                                channels_ ? PartsOfLight::all : PartsOfLight::none);
+        for (std::size_t j = 0; j < seen.receivers.size(); ++j) {
+            const transport::Receiver& receiver = seen.receivers[j];
+            seen.known_part[receiver.reading()] += seen.direct.known[j];
+            if (channels_)
+                channels_->add(seen.direct.parts[j], Rgb::grey(1), receiver.reflections(), receiver.reading(),
+                               seen.known_parts);
+        }
         return seen;
     }
 
@@ -240,10 +256,15 @@ class LocalReadings {
             const std::uint64_t end = repeated * ((own.first + own.count) / light_paths);
             for (std::uint64_t i = repeated * (own.first / light_paths); i < end; ++i) {
                 std::vector<math::SampleStream> streams = streams_of(key, t, tile.size(), i);
-                transport::DirectLight::TileLight light{};
+                std::array<transport::LightParts, kPacketWidth> parts;
+                transport::DirectLight::TileLight light{{}, channels_ ? &parts : nullptr};
                 transport_.direct.add_sample(tile, remainder, streams, light);
-                for (std::size_t j = 0; j < tile.size(); ++j)
+                for (std::size_t j = 0; j < tile.size(); ++j) {
                     sums.add_direct(tile[j].reading(), weight * light[j]);
+                    if (channels_)
+                        channels_->add(parts[j], Rgb::grey(weight), tile[j].reflections(), tile[j].reading(),
+                                       sums.parts);
+                }
             }
         });
     }
@@ -286,9 +307,13 @@ class LocalReadings {
                  ++i) {
                 math::SampleStream stream(key.derived(j), i);
                 if (guided_ && stream.next() >= guided_share) continue;
+                transport::LightParts parts;
                 const Rgb luminance = transport_.tracer.luminance(
-                    *hit, branch.direction, transport_.max_reflections - branch.reflections, stream);
+                    *hit, branch.direction, transport_.max_reflections - branch.reflections, stream,
+                    channels_ ? &parts : nullptr);
                 sums.add(reading, weight * branch.transmission * luminance);
+                if (channels_)
+                    channels_->add(parts, weight * branch.transmission, branch.reflections, reading, sums.parts);
             }
         }
     }
@@ -363,6 +388,7 @@ class LocalReadings {
     }
 
     const LocalTransport& transport_;
+    const transport::Channels* channels_;  ///< null where there are none
     Reception seen_;
     double stands_for_;
     std::uint64_t paths_per_selected_, selected_per_ray_;
@@ -403,6 +429,7 @@ class LocalEstimation final : public Estimator {
     std::string_view technique() const override { return technique_; }
     void run_batch(const Batch& batch, Tally& sums) const override { readings_.run_batch(batch, sums); }
     std::span<const Rgb> known_part() const override { return readings_.known_part(); }
+    std::span<const Rgb> known_parts() const override { return readings_.known_parts(); }
     std::span<const std::optional<Vec3>> sight_ends() const override { return readings_.sight_ends(); }
     std::vector<double> expected_largest() const override { return readings_.expected_largest(); }
     bool is_met_by_chance(const rays::Hit& place) const override { return readings_.is_met_by_chance(place); }

@@ -120,7 +120,9 @@ class PathEstimator final : public Estimator {
           preparation_key_(problem.preparation_key),
           stands_for_(problem.stands_for),
           paths_(scene_, caster_, problem.patches, problem.monitor),
+          channels_(problem.channels),
           known_part_(problem.measurands.size()),
+          known_parts_(channels_ ? channels_->count() * problem.measurands.size() : 0),
           sight_ends_(problem.measurands.size()) {
         for (std::uint32_t reading = 0; reading < problem.measurands.size(); ++reading) {
             add_reading(reading, problem.measurands[reading]);
@@ -139,6 +141,7 @@ class PathEstimator final : public Estimator {
     }
 
     std::span<const Rgb> known_part() const override { return known_part_; }
+    std::span<const Rgb> known_parts() const override { return known_parts_; }
     std::span<const std::optional<Vec3>> sight_ends() const override { return sight_ends_; }
     bool is_met_by_chance(const rays::Hit& /*place*/) const override { return !paths_.patches; }
     std::uint64_t batch_granularity() const override { return 1; }
@@ -175,21 +178,27 @@ class PathEstimator final : public Estimator {
     /// The part of a reading without sampling: direct light of point-like sources at a point, emission
     /// along a line of sight.
     void add_reading(std::uint32_t reading, const Measurand& measurand) {
+        transport::LightParts parts;
+        add_reading(reading, measurand, parts);
+        if (channels_) channels_->add(parts, Rgb::grey(1), 0, reading, known_parts_);
+    }
+    void add_reading(std::uint32_t reading, const Measurand& measurand, transport::LightParts& parts) {
         if (auto receiver = transport::receiver_of_illuminance(reading, measurand, caster_)) {
             points_.push_back(*receiver);
-            known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights);
+            known_part_[reading] = direct_from_points(points_.back(), caster_, paths_.lights, &parts);
             return;
         }
         const transport::VisibleSurfaces seen =
             trace_line_of_sight(measurand, scene_, caster_, paths_.lights, max_reflections_);
         sight_ends_[reading] = seen.end;
         if (!seen.first) {
-            known_part_[reading] = paths_.lights.outside_luminance(transport::viewing_direction(measurand));
+            known_part_[reading] = seen.emission_cd_m2;
+            parts = seen.parts;
             return;
         }
         const Vec3 direction = transport::viewing_direction(measurand);
         sights_.push_back({reading, *seen.first, direction});
-        known_part_[reading] = paths_.lights.emitted_luminance(*seen.first, -direction);
+        known_part_[reading] = paths_.lights.emitted_luminance(*seen.first, -direction, &parts);
     }
 
     /// Calls `sample(first, end)` for parts of all readings' samples: number n is sample n % count of reading
@@ -214,7 +223,10 @@ class PathEstimator final : public Estimator {
             const transport::Receiver& point = points_[n / batch.count];
             math::SampleStream stream(batch.key.derived(BatchStream::camera_paths).derived(point.reading()),
                                       batch.first + n % batch.count);
-            sums.add_direct(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream));
+            transport::LightParts parts;
+            sums.add_direct(point.reading(), sample_direct_from_areas(point, caster_, paths_.lights, stream,
+                                                                      channels_ ? &parts : nullptr));
+            if (channels_) channels_->add(parts, Rgb::grey(1), 0, point.reading(), sums.parts);
             const auto [u1, u2] = stream.next_two();
             const auto sample = point.sample(u1, u2);
             if (!sample) continue;
@@ -225,31 +237,39 @@ class PathEstimator final : public Estimator {
         std::vector<std::optional<rays::Hit>> hits(rays.size());
         caster_.closest(rays, rays::Coherence::scattered, hits);
         std::vector<transport::Path> paths;
+        std::vector<transport::LightParts> parts(channels_ ? rays.size() : 0);
         std::vector<Target> target_of_path;
         for (std::size_t i = 0; i < rays.size(); ++i) {
             if (!hits[i]) continue;
             paths.push_back({*hits[i], -rays[i].direction, streams[i], max_reflections_});
             paths.back().previous_vertex = transport::kDirectIsKnown;
+            if (channels_) paths.back().parts = &parts[i];
             target_of_path.push_back(targets[i]);
         }
         paths_.tracer.trace(paths, rays::Coherence::scattered);
         for (std::size_t i = 0; i < paths.size(); ++i) {
-            sums.add(target_of_path[i].reading, target_of_path[i].weight * paths[i].luminance_cd_m2);
+            const auto& [reading, weight] = target_of_path[i];
+            sums.add(reading, weight * paths[i].luminance_cd_m2);
+            if (channels_) channels_->add(*paths[i].parts, weight, 0, reading, sums.parts);
         }
     }
 
     void sample_luminances(const Batch& batch, std::uint64_t first, std::uint64_t end, Tally& sums) const {
         std::vector<transport::Path> paths;
+        std::vector<transport::LightParts> parts(channels_ ? end - first : 0);
         for (std::uint64_t n = first; n < end; ++n) {
             const FirstHit& seen = sights_[n / batch.count];
             const math::SampleStream stream(
                 batch.key.derived(BatchStream::camera_paths).derived(seen.reading),
                 batch.first + n % batch.count);
             paths.push_back({seen.hit, -seen.direction, stream, max_reflections_});
+            if (channels_) paths.back().parts = &parts[n - first];
         }
         paths_.tracer.trace(paths, rays::Coherence::coherent);
         for (std::uint64_t n = first; n < end; ++n) {
-            sums.add(sights_[n / batch.count].reading, paths[n - first].luminance_cd_m2);
+            const std::uint32_t reading = sights_[n / batch.count].reading;
+            sums.add(reading, paths[n - first].luminance_cd_m2);
+            if (channels_) channels_->add(parts[n - first], Rgb::grey(1), 0, reading, sums.parts);
         }
     }
 
@@ -260,9 +280,10 @@ class PathEstimator final : public Estimator {
     math::KeyOf<PreparationStream> preparation_key_;
     double stands_for_;
     FlattenedPaths paths_;
+    const transport::Channels* channels_;
     std::vector<transport::Receiver> points_;
     std::vector<FirstHit> sights_;
-    std::vector<Rgb> known_part_;
+    std::vector<Rgb> known_part_, known_parts_;
     std::vector<std::optional<Vec3>> sight_ends_;
     std::optional<PictureTracing> tracing_;
 };

@@ -18,10 +18,11 @@ lights::LitPoint lit_point(const Receiver& receiver) { return {receiver.position
 struct DirectLight::ShadowRays {
     std::array<rays::Segment, kPacketWidth> segments;
     std::array<Rgb, kPacketWidth> received;  ///< without shadows
-    std::array<std::size_t, kPacketWidth> lanes;
+    std::array<std::size_t, kPacketWidth> lanes, lights;
     std::size_t count = 0;
 
-    void add(std::size_t lane, const rays::Segment& segment, const Rgb& unshadowed) {
+    void add(std::size_t lane, const rays::Segment& segment, const Rgb& unshadowed, std::size_t light) {
+        lights[count] = light;
         segments[count] = segment;
         received[count] = unshadowed;
         lanes[count++] = lane;
@@ -31,7 +32,7 @@ struct DirectLight::ShadowRays {
         std::array<Rgb, kPacketWidth> transmittances;
         caster.transmittances(std::span(segments).first(count), rays::Coherence::coherent,
                               std::span(transmittances).first(count));
-        for (std::size_t i = 0; i < count; ++i) light[lanes[i]] += received[i] * transmittances[i];
+        for (std::size_t i = 0; i < count; ++i) light.add(lanes[i], received[i] * transmittances[i], lights[i]);
     }
 };
 
@@ -57,6 +58,7 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
             leaves.back().bounds.include(origin->position);
         } else if (auto lamp = UniformLamp::of(scene, light, caster.lift())) {
             lamps_.push_back(std::move(*lamp));
+            of_lamps_.push_back(i);
         } else if (auto opening = OpeningLamp::of(scene, light, caster.lift())) {
             openings_.push_back(std::move(*opening));
             of_openings_.push_back(i);
@@ -71,24 +73,29 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
 }
 
 DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
-                                           const Monitor& monitor) const {
+                                           const Monitor& monitor, PartsOfLight parts) const {
     const std::size_t tiles = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     const bool exact_points = points_.size() <= kFewPoints || points_.size() * receivers.size() <= kMostExact;
     const std::size_t lamps = lamp_count() + surfaces_.size();
     const bool settles = has_many_lamps_ && lamps * receivers.size() <= kMostSettled;
-    Prepared prepared{std::vector<Rgb>(receivers.size()), std::vector<Remainder>(tiles)};
+    Prepared prepared{std::vector<Rgb>(receivers.size()), {}, std::vector<Remainder>(tiles)};
+    if (parts == PartsOfLight::all) prepared.parts.resize(receivers.size());
     parallel_for(tiles, [&](std::size_t t) {
         monitor.require_more();
         const std::size_t first = t * kPacketWidth;
         const auto tile =
             receivers.subspan(first, std::min<std::size_t>(kPacketWidth, receivers.size() - first));
-        TileLight light{};
+        std::array<LightParts, kPacketWidth> of_tile;
+        TileLight light{{}, prepared.parts.empty() ? nullptr : &of_tile};
         prepared.remainders[t] = add_known(tile, settles, light);
         settle_one_by_one(tile, prepared.remainders[t], light);
         // The tree chooses for surfaces.
         prepared.remainders[t].points = !exact_points && std::ranges::none_of(tile, &Receiver::is_body);
         if (!prepared.remainders[t].points) add_points(tile, light);
-        std::copy_n(light.begin(), tile.size(), prepared.known.begin() + static_cast<std::ptrdiff_t>(first));
+        for (std::size_t i = 0; i < tile.size(); ++i) {
+            prepared.known[first + i] = light[i];
+            if (light.parts) prepared.parts[first + i] = std::move(of_tile[i]);
+        }
     });
     return prepared;
 }
@@ -104,6 +111,11 @@ const LampHull& DirectLight::hull_of(std::size_t lamp) const {
     return lamp < lamps_.size() ? lamps_[lamp].hull() : openings_[lamp - lamps_.size()].hull();
 }
 
+std::size_t DirectLight::light_of(std::size_t lamp) const {
+    if (lamp < lamps_.size()) return of_lamps_[lamp];
+    return lamp < lamp_count() ? of_openings_[lamp - lamps_.size()] : surfaces_[lamp - lamp_count()];
+}
+
 /// Of all of the lamp, where that is known.
 std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const lights::LitPoint& at) const {
     if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at);
@@ -113,9 +125,7 @@ std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const lights::LitPoin
 /// Of all of the lamp, or of a surface without closed form: 0 only where that gives no light.
 double DirectLight::rough_lx(std::size_t lamp, const lights::LitPoint& at) const {
     if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at).luminance();
-    const std::size_t number =
-        lamp < lamp_count() ? of_openings_[lamp - lamps_.size()] : surfaces_[lamp - lamp_count()];
-    return lights_.rough_illuminance_lx(number, at.position, at.normal);
+    return lights_.rough_illuminance_lx(light_of(lamp), at.position, at.normal);
 }
 
 std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const lights::LitPoint& at,
@@ -161,7 +171,7 @@ void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remai
             continue;
         }
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            if (whole_lx[i].max() > 0) light[i] += whole_lx[i] * *tile[i].constant_response();
+            if (whole_lx[i].max() > 0) light.add(i, whole_lx[i] * *tile[i].constant_response(), of_lamps_[l]);
         }
     }
     for (std::size_t o = 0; o < openings_.size(); ++o) {
@@ -190,7 +200,7 @@ void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& r
             const auto received_lx = settled_lx(l, tile[i]);
             if (!received_lx) continue;
             remainder.lamps[i] &= ~bit;
-            light[i] += *received_lx * *tile[i].constant_response();
+            light.add(i, *received_lx * *tile[i].constant_response(), light_of(l));
         }
     }
 }
@@ -217,7 +227,7 @@ void DirectLight::settle_many_lamps(std::span<const Receiver> tile, Remainder& r
             else if (may_settle)
                 received_lx = settled_lx(l, tile[i]);
             if (received_lx) {
-                light[i] += *received_lx * *tile[i].constant_response();
+                light.add(i, *received_lx * *tile[i].constant_response(), light_of(l));
             } else {
                 open[i].add(l, rough[i]);
             }
@@ -245,7 +255,7 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
         if ((remainder.lamps[i] >> lamp & 1u) == 0) continue;
         if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
             shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
-                            sample->illuminance_lx * *tile[i].constant_response());
+                            sample->illuminance_lx * *tile[i].constant_response(), light_of(lamp));
     }
     shadow_rays.trace(caster_, light);
 }
@@ -261,7 +271,7 @@ void DirectLight::add_chosen_lamps(std::span<const Receiver> tile, const Remaind
             const auto [lamp, factor] = remainder.open[i].choose(choice, first[i]);
             if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
                 shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
-                                factor * sample->illuminance_lx * *tile[i].constant_response());
+                                factor * sample->illuminance_lx * *tile[i].constant_response(), light_of(lamp));
         }
         shadow_rays.trace(caster_, light);
     }
@@ -272,7 +282,7 @@ void DirectLight::add_by_directions(std::span<const Receiver> tile, const Remain
                                     std::span<math::SampleStream> streams, TileLight& light) const {
     for (std::size_t i = 0; i < tile.size(); ++i) {
         if (samples_all(tile[i], remainder))
-            light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i]);
+            light[i] += sample_direct_from_areas(tile[i], caster_, lights_, streams[i], light.parts_of(i));
     }
     if (remainder.chooses_by_tree) return;
     for (const std::size_t other : others_) {
@@ -306,7 +316,8 @@ void DirectLight::add_ray(std::span<const Receiver> tile, std::size_t lane, std:
     if (!(sensitivity > 0) || !(incident->normal_illuminance_lx.max() > 0)) return;
     shadow_rays.add(lane, {receiver.lifted(), incident->source_point},
                     factor * sensitivity * incident->normal_illuminance_lx *
-                        receiver.response(incident->direction).value);
+                        receiver.response(incident->direction).value,
+                    light);
 }
 
 /// Neighbouring choices often are the same light.

@@ -44,7 +44,17 @@ class DirectLight {
     DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights);
 
     /// Light of each of up to kPacketWidth receivers.
-    using TileLight = std::array<Rgb, kPacketWidth>;
+    struct TileLight {
+        std::array<Rgb, kPacketWidth> sum{};
+        std::array<LightParts, kPacketWidth>* parts = nullptr;  ///< of the sums; null where nobody asks
+
+        Rgb& operator[](std::size_t lane) { return sum[lane]; }
+        const Rgb& operator[](std::size_t lane) const { return sum[lane]; }
+        LightParts* parts_of(std::size_t lane) const { return parts ? &(*parts)[lane] : nullptr; }
+        void add(std::size_t lane, const Rgb& value, std::size_t light) {
+            add_part(value, light, 0, sum[lane], parts_of(lane));
+        }
+    };
 
     /// The parts of a tile's light that have to be sampled.
     struct Remainder {
@@ -65,10 +75,12 @@ class DirectLight {
     };
     struct Prepared {
         std::vector<Rgb> known;             ///< of each receiver, exact
+        std::vector<LightParts> parts;      ///< of `known`, where they are asked for
         std::vector<Remainder> remainders;  ///< of each tile: kPacketWidth receivers in their order
     };
     /// For receivers that stay. May use several threads.
-    Prepared prepare(std::span<const Receiver> receivers, const Monitor& monitor) const;
+    Prepared prepare(std::span<const Receiver> receivers, const Monitor& monitor,
+                     PartsOfLight parts = PartsOfLight::none) const;
     /// Adds a sample of the remainder. `streams`: of each receiver.
     void add_sample(std::span<const Receiver> tile, const Remainder& remainder,
                     std::span<math::SampleStream> streams, TileLight& light) const;
@@ -104,6 +116,8 @@ class DirectLight {
     void add_point(std::span<const Receiver> tile, std::size_t point, double factor, TileLight& light) const;
     void add_chosen_points(std::span<const Receiver> tile, math::SampleStream& stream,
                            TileLight& light) const;
+    /// The number of the light of a lamp, or of a surface without closed form.
+    std::size_t light_of(std::size_t lamp) const;
     std::size_t lamp_count() const { return lamps_.size() + openings_.size(); }
     const LampHull& hull_of(std::size_t lamp) const;
     std::optional<Rgb> whole_lx(std::size_t lamp, const lights::LitPoint& at) const;
@@ -126,9 +140,9 @@ class DirectLight {
     const LightSampler& lights_;
     std::vector<UniformLamp> lamps_;
     std::vector<OpeningLamp> openings_;
-    /// Numbers of lights: of the openings, of surfaces without closed form where lamps are many, of point
+    /// Numbers of lights: of the uniform lamps, of the openings, of surfaces without closed form where lamps are many, of point
     /// lights, and of all others.
-    std::vector<std::size_t> of_openings_, surfaces_, points_, others_;
+    std::vector<std::size_t> of_lamps_, of_openings_, surfaces_, points_, others_;
     LightTree tree_of_points_;
     std::optional<rays::ShaftQuery> shafts_;
     bool has_many_lamps_;  ///< so many that some are chosen
