@@ -39,8 +39,7 @@ struct Channels {
 
     std::size_t count() const { return groups * orders; }
     std::size_t of(std::uint32_t light, int reflections) const {
-        return group_of_light[light] * orders +
-               std::min(static_cast<std::size_t>(reflections), orders - 1);
+        return group_of_light[light] * orders + std::min(static_cast<std::size_t>(reflections), orders - 1);
     }
     /// Adds parts of a reading, times a weight and after so many more reflections, to `sums`: channels x
     /// readings.
@@ -49,7 +48,8 @@ struct Channels {
         const std::size_t readings = sums.size() / count();
         for (const LightPart& part : parts) {
             const Rgb value = weight * part.value;
-            if (value.is_finite()) sums[of(part.light, part.reflections + reflections) * readings + reading] += value;
+            if (value.is_finite())
+                sums[of(part.light, part.reflections + reflections) * readings + reading] += value;
         }
     }
 };

@@ -56,7 +56,8 @@ class LineOfSightFollower {
 
     void add_outside(const Vec3& direction, const Rgb& transmission, int reflections) {
         if (lights_.has_light_from_outside())
-            add(transmission * lights_.outside_luminance(direction), lights_.light_from_outside(), reflections);
+            add(transmission * lights_.outside_luminance(direction), lights_.light_from_outside(),
+                reflections);
     }
 
     VisibleSurfaces sight;

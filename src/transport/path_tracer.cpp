@@ -174,10 +174,11 @@ Rgb PathTracer::luminance_behind(const rays::Hit& hit, const Vec3& direction,
 }
 
 Rgb PathTracer::incoming_luminance(const rays::Ray& ray, const PreviousVertex& previous_vertex,
-                                   int max_reflections, math::SampleStream& stream,
-                                   LightParts* parts) const {
+                                   int max_reflections, math::SampleStream& stream, LightParts* parts) const {
     Rgb sum;
-    const auto add = [&](const Rgb& luminance, std::size_t light) { add_part(luminance, light, 0, sum, parts); };
+    const auto add = [&](const Rgb& luminance, std::size_t light) {
+        add_part(luminance, light, 0, sum, parts);
+    };
     const auto hit = caster_.closest(ray.origin, ray.direction);
     if (!hit) {
         visit_outside_light_towards(previous_vertex, ray.direction, add);

@@ -214,8 +214,7 @@ void PathWave::add(const PathPacket& paths, std::size_t lane, const Rgb& luminan
     const std::uint32_t number = paths.number[lane];
     luminances_cd_m2_[number] += luminance_cd_m2;
     if (asked_.empty()) return;
-    const int reflections =
-        asked_[number].reflections_left - static_cast<int>(paths.reflections_left[lane]);
+    const int reflections = asked_[number].reflections_left - static_cast<int>(paths.reflections_left[lane]);
     asked_[number].parts->push_back({luminance_cd_m2, static_cast<std::uint32_t>(light), reflections});
 }
 

@@ -61,7 +61,7 @@ class PathWave {
     std::span<PathPacket> packets_;
     std::span<const Path> asked_;  ///< the paths where parts are asked for; else empty
     std::size_t count_ = 0;        ///< of paths: those of the first lanes
-    std::vector<Path> general_;  ///< vertices that are reflected one by one
+    std::vector<Path> general_;    ///< vertices that are reflected one by one
     std::vector<LaneMask> going_;
     rays::RayHitPacket hits_;
 };

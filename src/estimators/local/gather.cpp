@@ -101,8 +101,9 @@ class SharedPoint {
     /// Adds to the readings the light that comes to y from `direction`, given its illuminance on a surface
     /// across it, over the density of y: that is `weight` times its parts. `channels`: null, or those of the
     /// readings.
-    void reflect(const Vec3& direction, const Rgb& normal_illuminance, std::span<const transport::LightPart> parts,
-                 double weight, const transport::Channels* channels, Tally& sums) const {
+    void reflect(const Vec3& direction, const Rgb& normal_illuminance,
+                 std::span<const transport::LightPart> parts, double weight,
+                 const transport::Channels* channels, Tally& sums) const {
         const Vec3 in = surface_.frame().to_local(direction);
         for_each_lane([&](std::size_t i) {
             const transport::Receiver& receiver = tile_.receivers[i];
@@ -187,9 +188,8 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
         if (!hit) continue;
         if (is_specular(tracer_.material(*hit))) {
             transport::LightParts parts;
-            const Rgb luminance =
-                tracer_.luminance_without_direct(*hit, sample->direction, tile.reflections_left[i], stream,
-                                                 channels_ ? &parts : nullptr);
+            const Rgb luminance = tracer_.luminance_without_direct(
+                *hit, sample->direction, tile.reflections_left[i], stream, channels_ ? &parts : nullptr);
             sums.add(receiver.reading(), weight * sample->weight * luminance);
             if (channels_)
                 channels_->add(parts, weight * sample->weight, receiver.reflections(), receiver.reading(),
@@ -227,9 +227,9 @@ void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t 
         const transport::PreviousVertex previous_vertex{kBeams * beam->density / ray_density, hit.position,
                                                         hit.normal};
         transport::LightParts parts;
-        const Rgb luminance = tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
-                                                         tile.reflections_left[own] - 1, stream,
-                                                         channels_ ? &parts : nullptr);
+        const Rgb luminance =
+            tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
+                                       tile.reflections_left[own] - 1, stream, channels_ ? &parts : nullptr);
         const double of_beam = weight * beam->weight / (kBeams * beam->density);
         shared.reflect(beam->direction, luminance * of_beam, parts, of_beam, channels_, sums);
     }

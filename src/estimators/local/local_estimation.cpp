@@ -313,7 +313,8 @@ class LocalReadings {
                     channels_ ? &parts : nullptr);
                 sums.add(reading, weight * branch.transmission * luminance);
                 if (channels_)
-                    channels_->add(parts, weight * branch.transmission, branch.reflections, reading, sums.parts);
+                    channels_->add(parts, weight * branch.transmission, branch.reflections, reading,
+                                   sums.parts);
             }
         }
     }

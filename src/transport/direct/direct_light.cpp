@@ -32,7 +32,8 @@ struct DirectLight::ShadowRays {
         std::array<Rgb, kPacketWidth> transmittances;
         caster.transmittances(std::span(segments).first(count), rays::Coherence::coherent,
                               std::span(transmittances).first(count));
-        for (std::size_t i = 0; i < count; ++i) light.add(lanes[i], received[i] * transmittances[i], lights[i]);
+        for (std::size_t i = 0; i < count; ++i)
+            light.add(lanes[i], received[i] * transmittances[i], lights[i]);
     }
 };
 
@@ -72,8 +73,8 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
     if (lamp_count() > 0) shafts_.emplace(scene, caster.center());
 }
 
-DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers,
-                                           const Monitor& monitor, PartsOfLight parts) const {
+DirectLight::Prepared DirectLight::prepare(std::span<const Receiver> receivers, const Monitor& monitor,
+                                           PartsOfLight parts) const {
     const std::size_t tiles = (receivers.size() + kPacketWidth - 1) / kPacketWidth;
     const bool exact_points = points_.size() <= kFewPoints || points_.size() * receivers.size() <= kMostExact;
     const std::size_t lamps = lamp_count() + surfaces_.size();
@@ -271,7 +272,8 @@ void DirectLight::add_chosen_lamps(std::span<const Receiver> tile, const Remaind
             const auto [lamp, factor] = remainder.open[i].choose(choice, first[i]);
             if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
                 shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
-                                factor * sample->illuminance_lx * *tile[i].constant_response(), light_of(lamp));
+                                factor * sample->illuminance_lx * *tile[i].constant_response(),
+                                light_of(lamp));
         }
         shadow_rays.trace(caster_, light);
     }
@@ -314,10 +316,10 @@ void DirectLight::add_ray(std::span<const Receiver> tile, std::size_t lane, std:
     if (!incident) return;
     const double sensitivity = receiver.sensitivity(incident->direction);
     if (!(sensitivity > 0) || !(incident->normal_illuminance_lx.max() > 0)) return;
-    shadow_rays.add(lane, {receiver.lifted(), incident->source_point},
-                    factor * sensitivity * incident->normal_illuminance_lx *
-                        receiver.response(incident->direction).value,
-                    light);
+    shadow_rays.add(
+        lane, {receiver.lifted(), incident->source_point},
+        factor * sensitivity * incident->normal_illuminance_lx * receiver.response(incident->direction).value,
+        light);
 }
 
 /// Neighbouring choices often are the same light.

@@ -140,8 +140,8 @@ class DirectLight {
     const LightSampler& lights_;
     std::vector<UniformLamp> lamps_;
     std::vector<OpeningLamp> openings_;
-    /// Numbers of lights: of the uniform lamps, of the openings, of surfaces without closed form where lamps are many, of point
-    /// lights, and of all others.
+    /// Numbers of lights: of the uniform lamps, of the openings, of surfaces without closed form where lamps
+    /// are many, of point lights, and of all others.
     std::vector<std::size_t> of_lamps_, of_openings_, surfaces_, points_, others_;
     LightTree tree_of_points_;
     std::optional<rays::ShaftQuery> shafts_;
