@@ -192,6 +192,7 @@ void PatchFlags::add_to(Command& command) {
 void PatchFlags::hide_in(Command& command) {
     for (const char* name : {"--first-shot", "--window", "--resolution", "--visibility", "--directions"})
         command.find(name).hidden();
+    command.find("--patch").heading("Patches (ray-bundle, radiosity, particles)");
     command.set_footer("First shot, item buffers and bundles of methods on patches: stilb help patches");
 }
 

@@ -28,7 +28,7 @@ void add_lamp(Scene& scene) {
 /// Every reading by a guess is that of path tracing, in one scene or in two of which one is the same.
 void expect_same(const MeasuredScene& guided, const MeasuredScene& traced) {
     const auto by_guess = guided.by(make_guided, 256), by_paths = traced.by(make_path, 2048, 2);
-    const double threshold = statistics::sidak_threshold_z(0.01, by_guess.size());
+    const double threshold = statistics::sidak_threshold_z(1e-3, by_guess.size());
     for (std::size_t j = 0; j < by_guess.size(); ++j) {
         EXPECT_LT(distance_of(by_guess[j], by_paths[j]), threshold)
             << j << ": " << by_guess[j].value << " +- " << by_guess[j].standard_error << ", "

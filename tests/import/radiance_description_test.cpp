@@ -189,8 +189,6 @@ TEST(RadianceDescription, CommandsThatAreNotRun) {
         refusal_of_rad("!genbox n b 1 1 1\n"),
         "r.rad:1: the modifier \"n\" is not defined before this line. Needed: a material of this name, or "
         "void.");
-    EXPECT_EQ(refusal_of_rad(with_material("!genrev m v t 'foo(t)' 3\n")),
-              "r.rad:2: formula \"foo(t)\": there is no \"foo\".");
 }
 
 TEST_F(RadianceFiles, LibrariesAreInTheFoldersOfRaypath) {

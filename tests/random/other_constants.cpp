@@ -34,7 +34,6 @@ std::span<const OtherConstants> other_constants() {
          "kSobolGain kComparedPaths kGuidedSamples kPilotBlock kPilotRows kPilotPasses "
          "kPilotReplicates kGuidedPassCost kGlossyPassCost kContinuedCost"},
         {"src/estimators/camera_paths.cpp", "sobol_dimensions deviation kPacketSobolDimensions"},
-        {"src/estimators/camera_paths.h", "kPixels"},
         {"src/estimators/estimator.h", "kBlockSize kPacketSide"},
         {"src/estimators/local/direct_plan.h", "kDirectRayCost"},
         {"src/estimators/local/gather.cpp", "kBeams"},
@@ -68,8 +67,7 @@ std::span<const OtherConstants> other_constants() {
          "kRayCost kPathCost kSegmentCost kPathVariance kEvenVariance kEvenNodes "
          "kLeastFactor kLargestFactorPerRay floor nodes_within rays rounds "
          "most_points"},
-        {"src/estimators/local/sub_points.cpp",
-         "kDirectOfPixels kDirectDimensions most_cells parallel level"},
+        {"src/estimators/local/sub_points.cpp", "kDirectDimensions most_cells parallel level"},
         {"src/estimators/local/point_tile.cpp", "share"},
         {"src/estimators/patch_light/first_shot/factors.cpp",
          "kTogether kPixelsPerPatch kFaces kLeast kMost"},
@@ -84,8 +82,7 @@ std::span<const OtherConstants> other_constants() {
          "kMaps"},
         {"src/estimators/patch_light/patch_options.h", "kAutomatic"},
         {"src/estimators/patch_light/patch_readings.cpp",
-         "kFaint kRaysPerSample kShare kRaysPerPath kMostComparisons kMostSamples kViews "
-         "kComparisons"},
+         "kRaysPerSample kShare kRaysPerPath kMostComparisons kMostSamples"},
         {"src/estimators/patch_light/patch_transport.cpp", "kRaysPerPatch stretch"},
         {"src/estimators/patch_light/patch_transport.h", "kConstant"},
         {"src/estimators/patch_light/radiosity/patch_shots.cpp", "kThird"},
@@ -172,7 +169,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/rays/shaft_query.cpp", "kItemsOfLeaf kRounding infinity at_once"},
         {"src/rays/surface_packet.h", "kNothing kEdgeMargin"},
         {"src/run/campaign.cpp",
-         "kBytesOfReading bytes_of_sum kRaysPerRound kLongestBatch kFewReplicates kReadingReserve kStrands"},
+         "kBytesOfReading bytes_of_sum kRaysPerRound kLongestBatch kReadingReserve kStrands"},
         {"src/run/campaign.h", "kGuessBytes"},
         {"src/run/glare/daylight_glare.cpp", "kOfIlluminance kOfGlare kOffset kExponent kTimesMean"},
         {"src/run/glare/glare.cpp", "kLeastShareOfGlare kPerRelative kNoGlare kInfinite"},
@@ -181,6 +178,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/run/level_of_detail.cpp", "kNoLimit_m kFootprint_rad"},
         {"src/run/measure.cpp", "kConfidence much"},
         {"src/run/passes.h", "kBiasesOfMostPixels"},
+        {"src/run/plan.cpp", "kFewReplicates"},
         {"src/run/pictures/picture_comparison.cpp", "kPixels kReplicates kPathsOfAReplicate"},
         {"src/run/pictures/picture_paces.cpp", "kPixelReserve kEdge packets"},
         {"src/run/possible_light.cpp", "kParticles kMostEstimates kUnsure"},

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "estimators/estimator_list.h"
 #include "run/run.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"
@@ -20,6 +21,7 @@ struct PlanCase {
     const char* method;
     int points;  ///< a side of the grid
     std::uint64_t paths;
+    double error = 0;  ///< that takes more than one look at the errors
 };
 void PrintTo(const PlanCase& c, std::ostream* out) { *out << c.method << " " << c.points; }
 
@@ -63,6 +65,7 @@ RunOptions options_of(const char* method, std::optional<std::uint64_t> paths) {
     RunOptions options;
     options.method = method;
     options.paths = paths;
+    if (estimators::find_estimator(method).lights_patches) options.patches.patch_m = 1;
     return options;
 }
 
@@ -92,10 +95,13 @@ TEST_P(RunOfPlan, HasTheSameBitsInParts) {
     EXPECT_EQ(numbers_of(run(options_, &merged)), numbers_of(in_one_go));
 }
 
-TEST_P(RunOfPlan, HasTheSameBitsWhereItGoesOn) {
+/// Without patches, whose own error would end the run.
+class RunByError : public RunOfPlan {};
+
+TEST_P(RunByError, HasTheSameBitsWhereItGoesOn) {
     RunOptions rough = options_, exact = options_;
     rough.paths.reset(), exact.paths.reset();
-    rough.error = 0.2, exact.error = 0.07;
+    rough.error = 0.9, exact.error = GetParam().error;
     RunState state, in_one_go;
     const RunResult first = run(rough, &state);
     const RunResult expected = run(exact, &in_one_go);
@@ -128,12 +134,15 @@ TEST_P(RunOfPlan, HasTheSameBitsAfterAnInterruption) {
     EXPECT_EQ(bytes_of(state), bytes_of(whole));
 }
 
+const PlanCase kAuto{"auto", 2, 1 << 16, 0.0008}, kLightPaths{"light-paths", 4, 1 << 16, 0.01},
+    kGuided{"guided", 4, 1 << 10, 0.001}, kGrid{"guided", 12, 1 << 10, 0.003},
+    kPath{"path", 3, 1 << 16, 0.0015};
 INSTANTIATE_TEST_SUITE_P(Methods, RunOfPlan,
-                         testing::Values(PlanCase{"auto", 2, 1 << 16}, PlanCase{"light-paths", 4, 1 << 16},
-                                         PlanCase{"guided", 4, 1 << 10}, PlanCase{"guided", 12, 1 << 10},
-                                         PlanCase{"path", 3, 1 << 16}, PlanCase{"ray-bundle", 3, 1 << 14},
-                                         PlanCase{"particles", 3, 1 << 22},
-                                         PlanCase{"radiosity", 3, 1 << 12}));
+                         testing::Values(kAuto, kLightPaths, kGuided, kGrid, kPath,
+                                         PlanCase{"ray-bundle", 3, 1 << 13},
+                                         PlanCase{"particles", 3, 1 << 20},
+                                         PlanCase{"radiosity", 3, 1 << 10}));
+INSTANTIATE_TEST_SUITE_P(Methods, RunByError, testing::Values(kAuto, kLightPaths, kGuided, kGrid, kPath));
 
 TEST(RunState, RefusesWhatDoesNotFit) {
     const Scene scene = lit_room();

@@ -101,14 +101,15 @@ TEST(Render, ShowsWhatPlanningDidNotSee) {
 }
 
 /// The relative variance of a pixel in some rows, on average, over independent renderings.
-double pixel_variance(const Scene& scene, const Camera& camera, int first_row, int last_row) {
+double pixel_variance(const Scene& scene, const Camera& camera, const std::string& technique, int first_row,
+                      int last_row) {
     constexpr std::uint64_t seeds = 12;
     const auto width = static_cast<std::size_t>(camera.resolution[0]);
     const std::size_t first = static_cast<std::size_t>(first_row) * width,
                       count = static_cast<std::size_t>(last_row - first_row) * width;
     std::vector<double> sums(count), squares(count);
     for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
-        const RenderResult result = render_with(scene, {"camera", camera}, "auto", seed, 8);
+        const RenderResult result = render_with(scene, {"camera", camera}, technique, seed, 8);
         for (std::size_t i = 0; i < count; ++i) {
             const double value = double{result.pixels.rgb_cd_m2[first + i][1]};
             sums[i] += value;
@@ -127,14 +128,16 @@ TEST(Render, IsAsSureWherePlanningSawOneOfTwoSurfaces) {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {18, 10, 6}}, diffuse(0.6));
     add_area_light(scene, Rectangle{{4, 4, 5.9}, {0, 2, 0}, {2, 0, 0}}, Rgb::grey(2400));
-    const auto variance = [&](double target_z, int first_row) {
+    const auto variance = [&](const std::string& technique, double target_z, int first_row) {
         const Camera camera{{9, 5, 1.7}, {9, 9.9, target_z}, {0, 0, 1},
                             60,          {64, 64},           Projection::perspective};
-        return pixel_variance(scene, camera, first_row, first_row + 3);
+        return pixel_variance(scene, camera, technique, first_row, first_row + 3);
     };
-    // The same rows one pixel lower, where planning sees the wall, too.
-    const double unseen = variance(0.22, 32), seen = variance(0.3, 33);
-    EXPECT_LT(unseen, 2 * seen);
+    for (const char* technique : {"light-paths", "guided"}) {
+        // The same rows one pixel lower, where planning sees the wall, too.
+        const double unseen = variance(technique, 0.22, 32), seen = variance(technique, 0.3, 33);
+        EXPECT_LT(unseen, 2 * seen) << technique;
+    }
 }
 
 TEST(Render, ErrorsOfPixelsAreHonest) {

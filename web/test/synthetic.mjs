@@ -42,7 +42,10 @@ export class SyntheticScene {
   indirect = { illuminance: 60, cosine: 0, sine: 0 };
 
   material(entry) {
-    this.header.materials.push({ colour: [0.5, 0.5, 0.5], reflection: null, ...entry });
+    const rgb = (value) => (Array.isArray(value) ? value : [value, value, value]);
+    const lobe = rgb(entry.specular ?? 0);
+    const colour = rgb(entry.reflectance ?? entry.diffuse ?? 0.5).map((share, b) => share + lobe[b]);
+    this.header.materials.push({ colour, reflection: null, ...entry });
     return this.header.materials.length - 1;
   }
 
