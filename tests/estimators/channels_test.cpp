@@ -23,7 +23,8 @@ Scene furnished_room() {
     Scene scene;
     add_object(scene, Box{{0, 0, 0}, {4, 3, 2.5}}, Diffuse{{{0.7, 0.5, 0.3}}});
     add_object(scene, Box{{2.4, 1.2, 0.001}, {3.2, 2, 0.8}}, Phong{Rgb::grey(0.3), Rgb::grey(0.4), 40});
-    add_object(scene, Rectangle{{0.3, 0.001, 0.5}, {1.5, 0, 0}, {0, 0, 1.5}}, materials::Mirror{Rgb::grey(0.8)});
+    add_object(scene, Rectangle{{0.3, 0.001, 0.5}, {1.5, 0, 0}, {0, 0, 1.5}},
+               materials::Mirror{Rgb::grey(0.8)});
     add_object(scene, Rectangle{{3.5, 0.5, 0.2}, {0, 2, 0}, {0, 0, 2}},
                materials::ThinDielectric{1.5, Rgb::grey(0.9)});
     add_area_light(scene, Rectangle{{1.1, 1.1, 2.49}, {0, 0.6, 0}, {0.6, 0, 0}}, Rgb::grey(3000));
@@ -88,13 +89,13 @@ class ChannelsOf : public testing::TestWithParam<const char*> {
 };
 
 TEST_P(ChannelsOf, AddUpToTheWhole) {
-    const auto method = method_.make(problem_of(scene_, caster_, readings_, transport::kUnlimited, &channels_));
+    const auto method =
+        method_.make(problem_of(scene_, caster_, readings_, transport::kUnlimited, &channels_));
     const Sampled all = sampled(*method, readings_.size(), channels_.count(), 1 << 12, 3);
     for (std::size_t r = 0; r < kReplicates; ++r) {
         for (std::size_t j = 0; j < readings_.size(); ++j) {
             Rgb sum;
-            for (std::size_t c = 0; c < channels_.count(); ++c)
-                sum += all.parts[r][c * readings_.size() + j];
+            for (std::size_t c = 0; c < channels_.count(); ++c) sum += all.parts[r][c * readings_.size() + j];
             for (std::size_t b = 0; b < kBands; ++b)
                 EXPECT_NEAR(sum[b], all.whole[r][j][b], 1e-9 * all.whole[r][j][b]) << r << ", " << j;
         }
@@ -108,15 +109,17 @@ TEST_P(ChannelsOf, ChangeNoReading) {
                   b = sampled(*without, readings_.size(), 0, 1 << 11, 3);
     for (std::size_t r = 0; r < kReplicates; ++r) {
         for (std::size_t j = 0; j < readings_.size(); ++j)
-            EXPECT_NEAR(a.whole[r][j].luminance(), b.whole[r][j].luminance(), 1e-5 * b.whole[r][j].luminance());
+            EXPECT_NEAR(a.whole[r][j].luminance(), b.whole[r][j].luminance(),
+                        1e-5 * b.whole[r][j].luminance());
     }
 }
 
 /// A group's light after so many reflections at most is that of a scene with its lights alone.
 TEST_P(ChannelsOf, AreTheLightOfTheirGroupsAndReflections) {
-    const auto method = method_.make(problem_of(scene_, caster_, readings_, transport::kUnlimited, &channels_));
+    const auto method =
+        method_.make(problem_of(scene_, caster_, readings_, transport::kUnlimited, &channels_));
     const std::size_t count = readings_.size();
-    const Sampled all = sampled(*method, count, channels_.count(), 1 << 14, 5);
+    const Sampled all = sampled(*method, count, channels_.count(), 1 << 12, 5);
     for (std::size_t group = 0; group < 2; ++group) {
         Scene alone = scene_;
         alone.lights.clear();
@@ -127,7 +130,7 @@ TEST_P(ChannelsOf, AreTheLightOfTheirGroupsAndReflections) {
         for (std::size_t order = 0; order < kOrders; ++order) {
             const int most = order + 1 < kOrders ? static_cast<int>(order) : transport::kUnlimited;
             const auto reference = method_.make(problem_of(alone, caster, readings_, most));
-            const Sampled expected = sampled(*reference, count, 0, 1 << 14, 6);
+            const Sampled expected = sampled(*reference, count, 0, 1 << 12, 6);
             std::vector<double> found, of_reference;
             for (std::size_t r = 0; r < kReplicates; ++r) {
                 for (std::size_t j = 0; j < count; ++j) {
