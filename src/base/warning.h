@@ -51,7 +51,9 @@ struct Warning {
 
     std::string_view kind_name() const { return kWarningKindNames[static_cast<std::size_t>(kind)]; }
     bool operator==(const Warning&) const = default;
-    friend bool operator==(const Warning& warning, std::string_view text) { return warning.text == text; }
+    friend bool operator==(const Warning& warning, std::string_view sentence) {
+        return warning.text == sentence;
+    }
 };
 
 /// For searches.
