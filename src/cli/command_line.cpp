@@ -287,7 +287,7 @@ void CommandLine::add_help() {
 Command CommandLine::add_topic(const std::string& name, const std::string& text) {
     CLI::App& topic = *topics_.emplace_back(std::make_unique<CLI::App>("", name));
     topic.set_help_flag();
-    topic.formatter_fn([text](const CLI::App* app, std::string, CLI::AppFormatMode mode) {
+    topic.formatter_fn([text](const CLI::App* app, const std::string&, CLI::AppFormatMode mode) {
         return text + "\n" + CLI::Formatter().make_groups(app, mode);
     });
     return Command(topic, exit_code_);
