@@ -20,11 +20,14 @@ namespace {
 bool is_flag(std::string_view argument) { return argument.starts_with('-'); }
 
 /// The message where a command is missing (`typed` is empty) or unknown.
-InputError no_command(const CLI::App& app, const std::string& typed) {
+/// `topics`: other names that may be meant.
+InputError no_command(const CLI::App& app, const std::string& typed,
+                      const std::vector<std::string>& topics = {}) {
     std::vector<std::string> names;
     for (const CLI::App* command : app.get_subcommands({})) names.push_back(command->get_name());
     const std::string all = fmt::format("Commands: {}. See stilb --help.", fmt::join(names, ", "));
     if (typed.empty()) return InputError("a command is missing. " + all);
+    names.insert(names.end(), topics.begin(), topics.end());
     const std::string question =
         did_you_mean(typed, std::vector<std::string_view>(names.begin(), names.end()));
     return InputError(fmt::format("there is no command \"{}\".{} {}", typed, question, all));
@@ -301,7 +304,11 @@ void CommandLine::print_help(const std::string& command) const {
         about = topic->get();
     } else if (!command.empty()) {
         const auto named = app_->get_subcommands([&](CLI::App* c) { return c->get_name() == command; });
-        if (named.empty()) throw no_command(*app_, command);
+        if (named.empty()) {
+            std::vector<std::string> topics;
+            for (const auto& own : topics_) topics.push_back(own->get_name());
+            throw no_command(*app_, command, topics);
+        }
         about = named.front();
         program += " " + command;
     }

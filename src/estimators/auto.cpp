@@ -417,7 +417,7 @@ std::unique_ptr<Estimator> choose_for_many(const Problem& problem) {
                               key.derived(PreparationStream::light_paths_pilot));
          }}},
          .cost_left = kPlanningRayCost * planning_rays(problem.measurands.size())}};
-    if (problem.max_reflections == transport::kUnlimited && !problem.channels) {
+    if (problem.max_reflections == transport::kUnlimited) {
         candidates.push_back({.make = guided_maker(),
                               .trials = {trial(key.derived(PreparationStream::guided_pilot), kGuidedSamples)},
                               .set_up_cost = kPatchCost * LightGuess::patch_count(problem.scene),

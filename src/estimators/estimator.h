@@ -48,8 +48,8 @@ struct Problem {
     std::optional<Camera> camera = {};
     /// Options of methods on patches, and of first shot.
     PatchOptions patches = {};
-    /// The channels that light is divided into (Tally::parts), for readings; null for none. Known to path and
-    /// light-paths.
+    /// The channels that light is divided into (Tally::parts); null for none. Methods on patches, and `path`
+    /// with first shot, do not divide their light.
     const transport::Channels* channels = nullptr;
     /// Monitors the set-up.
     const Monitor& monitor = Monitor::none();
@@ -86,7 +86,7 @@ class PicturePass {
 
     struct Sampled {
         std::uint64_t invalid = 0;    ///< non-finite samples; they are set to 0
-        std::uint64_t continued = 0;  ///< as Tally'
+        std::uint64_t continued = 0;  ///< as in Tally
     };
     /// Writes one unbiased sample of every pixel's luminance [cd/m2] of a block, row by row. Blocks may run
     /// in parallel.
@@ -106,8 +106,8 @@ class Estimator {
     virtual void run_batch(const Batch& batch, Tally& sums) const = 0;
     /// The part of each reading that is computed without sampling [lx or cd/m2].
     virtual std::span<const Rgb> known_part() const = 0;
-    /// The same for each channel: channels x readings. Empty where the problem has none, or the method knows
-    /// none.
+    /// The same for each channel: channels x readings. Empty where the problem has none, or the method does
+    /// not divide its light.
     virtual std::span<const Rgb> known_parts() const { return {}; }
     /// The end of the line of sight of each luminance reading; nothing where it leaves the scene, and nothing
     /// for illuminances.

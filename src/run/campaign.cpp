@@ -54,7 +54,7 @@ std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunO
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
                    const GlareViews& glare, const PossibleLight& possible, std::size_t readings,
-                   RunState state, const RunOptions& options, std::uint64_t least_samples, RunPart part)
+                   RunState& state, const RunOptions& options, std::uint64_t least_samples, RunPart part)
     : estimator_(estimator),
       sensors_(sensors),
       glare_(glare),
@@ -63,7 +63,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
       target_(options.target),
       part_(part),
       packets_(estimator.packets()),
-      state_(std::move(state)) {
+      state_(state) {
     const bool has_packets = !packets_.empty();
     if (!has_packets) packets_.resize(readings);
     if (plan().technique.empty()) {
@@ -72,16 +72,35 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
     }
     if (is_part() && !plan().is_complete())
         throw std::invalid_argument("the plan of a part of a run is not complete");
-    const std::size_t packets = *std::ranges::max_element(packets_) + std::size_t{1};
-    if (state_.tallies.empty()) state_.tallies.assign(plan().units(), estimators::Tally(readings, packets));
-    const estimators::Tally& first = state_.tallies[0];
-    if (first.sum.size() != readings || first.taken.size() != packets)
-        throw std::invalid_argument("the sums are those of other readings");
+    if (state_.tallies.empty())
+        state_.tallies.assign(plan().units(), estimators::Tally(readings, packets()));
+    require_own_sums(readings);
     samples_ = std::numeric_limits<std::uint64_t>::max();
     for (std::size_t strand = 0; strand < plan().units(); ++strand) {
         if (part_.has(strand)) samples_ = std::min(samples_, state_.tallies[strand].samples * plan().strands);
     }
-    for (std::size_t r = 0; r < plan().replicates; ++r) begun_.push_back(r);
+    find_begun();
+}
+
+std::size_t Campaign::packets() const { return *std::ranges::max_element(packets_) + std::size_t{1}; }
+
+void Campaign::require_own_sums(std::size_t readings) const {
+    const auto is_own = [&](const estimators::Tally& tally) {
+        return tally.sum.size() == readings && tally.taken.size() == packets() &&
+               (tally.lacking.empty() || tally.lacking.size() == readings);
+    };
+    const bool are_own_paces =
+        std::ranges::all_of(plan().paces, [&](const auto& paces) { return paces.size() == packets(); });
+    if (state_.tallies.size() != plan().units() || !std::ranges::all_of(state_.tallies, is_own) ||
+        !are_own_paces)
+        throw std::invalid_argument("the sums are those of other readings");
+}
+
+void Campaign::find_begun() {
+    begun_.clear();
+    for (std::size_t r = 0; r < plan().replicates; ++r) {
+        if (samples_of(r) > 0) begun_.push_back(r);
+    }
 }
 
 void Campaign::make_plan(std::size_t readings, std::uint64_t least_samples) {
@@ -108,6 +127,15 @@ std::uint64_t Campaign::samples_for(std::uint64_t paths) const {
     return std::min(plan().in_units(each), kMostSamples);
 }
 
+std::uint64_t Campaign::most_at_once() const {
+    std::uint64_t most = plan().most_at_once;
+    for (std::size_t strand = 0; strand < plan().units(); ++strand) {
+        const std::uint64_t samples = state_.tallies[strand].samples * plan().strands;
+        if (part_.has(strand) && samples > samples_) most = std::min(most, samples - samples_);
+    }
+    return most;
+}
+
 std::uint64_t Campaign::most_samples() const { return kMostSamples; }
 
 bool Campaign::is_at_check() const {
@@ -116,8 +144,7 @@ bool Campaign::is_at_check() const {
 
 bool Campaign::has_result() const {
     if (is_part()) return true;  // its sums
-    const auto begun = std::ranges::count_if(begun_, [&](std::size_t r) { return samples_of(r) > 0; });
-    return static_cast<std::size_t>(begun) >= std::min(kLeastReplicates, plan().replicates);
+    return begun_.size() >= std::min(kLeastReplicates, plan().replicates);
 }
 
 std::uint64_t Campaign::samples_of(std::size_t replicate) const {
@@ -148,7 +175,7 @@ void Campaign::sample_strand(std::size_t strand, std::uint64_t count) {
     estimators::Tally& tally = state_.tallies[strand];
     const std::size_t replicate = strand / plan().strands;
     const std::uint64_t first = samples_ + strand % plan().strands * count;
-    // An interrupted run has made the samples of some strands.
+    // A run that was interrupted has made the samples of some strands (most_at_once()).
     if (!part_.has(strand) || tally.samples * plan().strands > samples_) return;
     const math::RandomKey key = key_of_seed(plan().seed).derived(RunStream::readings).derived(replicate);
     estimators::Batch batch{{key}, first, count, {}};
@@ -164,9 +191,10 @@ void Campaign::advance(std::uint64_t count) {
         parallel_for(plan().units(),
                      [&](std::size_t strand) { sample_strand(strand, count / plan().strands); });
     } catch (const Cancelled&) {
-        if (has_result()) std::erase_if(begun_, [&](std::size_t r) { return samples_of(r) == 0; });
+        find_begun();
         throw;
     }
+    find_begun();
     samples_ += count;
     if (plan().has_paces && plan().paces.empty() && samples_ >= kSamplesBeforePaces) set_paces();
 }

@@ -27,14 +27,16 @@ inline constexpr std::size_t kGuessBytes = 150'000'000;
 class GlareViews;
 
 /// The sums of all replicates, and their progress. Keeps references to the estimator, to the sensors, which
-/// may have no readings, to what their eyes see, and to the light that may be missed.
+/// may have no readings, to what their eyes see, to the light that may be missed, and to the state, which
+/// holds all that is done at any time.
 class Campaign final : public Work {
   public:
     /// Begins or, where `state` has sums, continues a run of these readings, with as many in all. `part`: of
     /// its strands; the others stay as they are. `least_samples`: of all replicates, before the first error
-    /// estimate.
+    /// estimate. Throws std::invalid_argument where the state is of other readings, or a part has no complete
+    /// plan.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, const GlareViews& glare,
-             const PossibleLight& possible, std::size_t readings, RunState state, const RunOptions& options,
+             const PossibleLight& possible, std::size_t readings, RunState& state, const RunOptions& options,
              std::uint64_t least_samples, RunPart part = {});
 
     std::uint64_t samples() const override { return samples_; }
@@ -43,7 +45,8 @@ class Campaign final : public Work {
     std::uint64_t most_samples() const override;
     std::uint64_t next_check() const override { return check_after(samples_); }
     bool is_at_check() const override;
-    std::uint64_t most_at_once() const override { return plan().most_at_once; }
+    /// Less where some strands are ahead of others: all get to the same point first.
+    std::uint64_t most_at_once() const override;
     /// From some of the replicates on, where time does not suffice for all.
     bool has_result() const override;
 
@@ -58,8 +61,6 @@ class Campaign final : public Work {
     bool is_beyond_reach(double error) const override;
 
     const RunPlan& plan() const { return state_.plan; }
-    /// What another run continues.
-    RunState take_state() { return std::move(state_); }
     std::size_t replicates() const { return begun_.size(); }
     std::uint64_t rays() const;
     /// Throws as require_mostly_finite().
@@ -87,13 +88,16 @@ class Campaign final : public Work {
     }
     std::uint64_t samples_of(std::size_t replicate) const;
     std::uint64_t taken(std::size_t replicate, std::uint32_t packet) const;
-    std::uint64_t comparisons_of(std::size_t replicate) const;  ///< as Tally's
+    std::uint64_t comparisons_of(std::size_t replicate) const;  ///< as in Tally
     bool is_part() const { return part_.of > 1; }
     std::uint64_t check_after(std::uint64_t samples) const {
         return plan().in_units(statistics::next_check(samples, plan().first_check));
     }
+    std::size_t packets() const;  ///< their number
     /// Completes the plan of a run that begins.
     void make_plan(std::size_t readings, std::uint64_t least_samples);
+    void require_own_sums(std::size_t readings) const;
+    void find_begun();
     void sample_strand(std::size_t strand, std::uint64_t count);
 
     template <typename Visit>
@@ -117,8 +121,8 @@ class Campaign final : public Work {
     Target target_;
     RunPart part_;
     std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
-    RunState state_;
-    std::vector<std::size_t> begun_;  ///< the replicates that have samples, or wait for them
+    RunState& state_;
+    std::vector<std::size_t> begun_;  ///< the replicates that have samples
     std::uint64_t samples_ = 0;       ///< of each replicate
 };
 

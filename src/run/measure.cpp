@@ -319,8 +319,8 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
                       key_of_seed(options.seed).derived(RunStream::glare));
     });
     const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
-    Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(), std::move(state),
-                      options, std::min(sharp.samples, kMostAwaited), part);
+    Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(), state, options,
+                      std::min(sharp.samples, kMostAwaited), part);
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });
     campaign.require_valid();
@@ -337,7 +337,6 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
     add_warnings(WarningKind::patches, patch_error_warnings(result), result.warnings);
     session.finish(result);
     result.scene_name = scene.name;
-    state = campaign.take_state();
     return result;
 }
 
@@ -353,6 +352,9 @@ void measure_part(const Scene& scene, std::span<const Sensor> sensors, const Run
                   RunPart part, RunState& state, ProgressSink* progress, const std::atomic<bool>* interrupt) {
     if (!options.paths)
         throw InputError("a part of a run needs a number of paths: it cannot tell the error of the whole");
+    if (part.number >= part.of)
+        throw InputError(fmt::format("part {} of {} does not exist: the first one is 0, the last one {}",
+                                     part.number, part.of, std::max<std::size_t>(part.of, 1) - 1));
     run_readings(scene, sensors, options, progress, interrupt, state, part);
 }
 

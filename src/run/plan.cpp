@@ -1,5 +1,7 @@
 #include "run/plan.h"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <stdexcept>
 #include <utility>
@@ -9,6 +11,8 @@ namespace {
 
 /// Replicates of large grids alone, and the least number of readings of such a grid.
 constexpr std::size_t kFewReplicates = 8, kLargeGrid = 64;
+/// Replicates times strands of a plan, and each of them: more are damaged bytes.
+constexpr std::uint64_t kMostUnits = std::uint64_t{1} << 20;
 
 }  // namespace
 
@@ -48,10 +52,18 @@ RunPlan RunPlan::read(ByteReader& bytes) {
     plan.unit = number();
     plan.first_check = number();
     plan.most_at_once = number();
+    const auto is_possible = [](std::uint64_t count) { return count >= 1 && count <= kMostUnits; };
+    if (!is_possible(plan.replicates) || !is_possible(plan.strands) || !is_possible(plan.units()))
+        bytes.fail(fmt::format("there are from 1 to {} parts of a run", kMostUnits));
+    if (plan.unit == 0 || plan.first_check == 0 || plan.most_at_once == 0)
+        bytes.fail("a number of samples is 0");
     const std::uint64_t paces = number();
     if (paces != 0 && paces != plan.replicates) bytes.fail("the paces are not those of all replicates");
-    for (std::uint64_t r = 0; r < paces; ++r)
+    for (std::uint64_t r = 0; r < paces; ++r) {
         plan.paces.push_back(bytes.take_list<std::vector<estimators::Pace>>("the paces"));
+        if (std::ranges::count(plan.paces.back(), std::uint64_t{0}, &estimators::Pace::every) > 0)
+            bytes.fail("a pace takes no samples");
+    }
     return plan;
 }
 

@@ -1,5 +1,5 @@
-// What a run of readings decides before its samples count, and the sums that it has reached: values that
-// another run continues, in parts or at another time.
+// What a run of readings decides before its samples count, and its sums so far: values that another run
+// continues, in parts or at another time.
 #pragma once
 
 #include <cstddef>
@@ -15,7 +15,7 @@
 
 namespace stilb::run {
 
-/// Runs of one plan add the same sums, whatever ends them, and also where each makes a part of them.
+/// Runs of one plan add the same sums, whatever ends them, and also where each of them makes a part.
 struct RunPlan {
     std::string technique;  ///< Estimator::technique()
     std::uint64_t seed = 1;
@@ -52,7 +52,7 @@ struct RunPart {
     bool has(std::size_t strand) const { return strand % of == number; }
 };
 
-/// Where a run has got to.
+/// A run between two of its batches.
 struct RunState {
     RunPlan plan;
     std::vector<estimators::Tally> tallies;  ///< of the strands, replicate by replicate; or none
@@ -66,9 +66,3 @@ struct RunState {
 };
 
 }  // namespace stilb::run
-
-namespace stilb {
-using run::RunPart;
-using run::RunPlan;
-using run::RunState;
-}  // namespace stilb

@@ -62,14 +62,17 @@ class PictureSink : public ProgressSink {
 /// a result, std::runtime_error where the numbers are wrong (too many are not finite).
 ///
 /// `state`: may be null. One without a plan receives the plan of the run and its sums. One with a plan is
-/// continued, in the technique and with the seed of its plan: a run that stopped by its error, by time or by
-/// the user gives the bits of a run in one go; so do parts that were merged.
+/// continued, in the technique and with the seed of its plan, and keeps what was done where an exception ends
+/// it. The other options must be those that it began with. A run that stopped by its error, by time or by the
+/// user then gives the bits of a run in one go; so do parts that were merged. One that ended at its number of
+/// paths between two error estimates goes on with batches of other lengths, so that last bits may differ.
 RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   RunState* state = nullptr);
 
 /// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.
-/// Throws as measure() does, and std::invalid_argument where the plan is not complete.
+/// Throws as measure() does, and std::invalid_argument where the plan is not complete. All parts need the same
+/// options.
 void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   RunPart part, RunState& state, ProgressSink* progress = nullptr,
                   const std::atomic<bool>* interrupt = nullptr);

@@ -38,7 +38,8 @@ Monitor::Report report_to(ProgressSink* sink, const Clock& clock) {
 
 }  // namespace
 
-Schedule::Ending Schedule::run(Work& work) const {
+Schedule::Ending Schedule::run(Work& work) {
+    samples_before_ = work.samples();
     const std::uint64_t last = options_.paths ? work.samples_for(*options_.paths) : work.most_samples();
     double error = work.is_at_check() ? work.attained_error() : kInfinity;
     if (work.is_at_check() || work.samples() >= last) {
@@ -95,8 +96,9 @@ std::optional<StopReason> Schedule::advance(std::uint64_t count, Work& work) con
 
 /// Predicts whether the next samples end in time, if they take as long as the last ones.
 bool Schedule::is_time_over(const Work& work, std::uint64_t next) const {
-    if (!options_.time_s) return false;
-    const double per_sample_s = begun_.elapsed_s() / static_cast<double>(work.samples());
+    const std::uint64_t own = work.samples() - samples_before_;
+    if (!options_.time_s || own == 0) return false;
+    const double per_sample_s = begun_.elapsed_s() / static_cast<double>(own);
     const double end_s = clock_.elapsed_s() + per_sample_s * static_cast<double>(next);
     return end_s > *options_.time_s - options_.reserved_s;
 }

@@ -75,7 +75,7 @@ class Schedule {
         StopReason reason = StopReason::paths_done;
         double attained_error = 0;
     };
-    Ending run(Work& work) const;
+    Ending run(Work& work);
 
   private:
     /// The reason to end at an error estimate, if there is one; `last` samples are the most.
@@ -92,6 +92,7 @@ class Schedule {
     const RunOptions& options_;
     const Clock& clock_;
     Clock begun_;
+    std::uint64_t samples_before_ = 0;  ///< of the work, before this run of it
     ProgressSink* sink_;
     const std::atomic<bool>* interrupt_;
 };

@@ -4,10 +4,13 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "base/rgb.h"
+#include "scene/light_groups.h"
 
 namespace stilb::transport {
 
@@ -18,7 +21,7 @@ struct LightPart {
     int reflections = 0;
 };
 
-/// What a sum consists of. Null pointers to it stand for: nobody asks.
+/// The parts of a sum. Null pointers to it mean that nobody asks for them.
 using LightParts = std::vector<LightPart>;
 
 /// Whether a set-up keeps the parts of light that needs no samples.
@@ -32,26 +35,91 @@ inline void add_part(const Rgb& value, std::size_t light, int reflections, Rgb& 
 
 /// The channels that the light of a problem is divided into: groups of lights, and numbers of reflections.
 struct Channels {
-    std::vector<std::uint32_t> group_of_light;  ///< by Scene::lights
-    std::size_t groups = 1;
-    /// The last one is: so many reflections, or more.
+    scene::LightGroups groups;
+    /// Of 0, 1, 2 ... reflections; the last one also has all further ones.
     std::size_t orders = 1;
 
-    std::size_t count() const { return groups * orders; }
+    std::size_t count() const { return groups.count() * orders; }
     std::size_t of(std::uint32_t light, int reflections) const {
-        return group_of_light[light] * orders + std::min(static_cast<std::size_t>(reflections), orders - 1);
+        return groups.of_light[light] * orders +
+               std::min(static_cast<std::size_t>(reflections), orders - 1);
     }
-    /// Adds parts of a reading, times a weight and after so many more reflections, to `sums`: channels x
-    /// readings.
+    /// Where the light of a channel is after so many more reflections.
+    std::size_t after(std::size_t channel, int reflections) const {
+        const std::size_t order = channel % orders;
+        return channel - order + std::min(order + static_cast<std::size_t>(reflections), orders - 1);
+    }
+
+    // These add to `sums` (channels x readings) what a reading gets, times a weight and after so many more
+    // reflections. Pilots have no such sums, and nothing is added to them.
+
     void add(std::span<const LightPart> parts, const Rgb& weight, int reflections, std::size_t reading,
              std::span<Rgb> sums) const {
-        const std::size_t readings = sums.size() / count();
-        for (const LightPart& part : parts) {
-            const Rgb value = weight * part.value;
-            if (value.is_finite())
-                sums[of(part.light, part.reflections + reflections) * readings + reading] += value;
-        }
+        for (const LightPart& part : parts)
+            add(weight * part.value, of(part.light, part.reflections + reflections), reading, sums);
     }
+    /// `shares`: by channel.
+    void add(std::span<const Rgb> shares, const Rgb& weight, int reflections, std::size_t reading,
+             std::span<Rgb> sums) const {
+        for (std::size_t c = 0; c < shares.size(); ++c)
+            add(weight * shares[c], after(c, reflections), reading, sums);
+    }
+
+  private:
+    void add(const Rgb& value, std::size_t channel, std::size_t reading, std::span<Rgb> sums) const {
+        if (!sums.empty() && value.is_finite()) sums[channel * (sums.size() / count()) + reading] += value;
+    }
+};
+
+/// A sum of light and, where there are channels, the share of each in it.
+struct LightSum {
+    /// `channels`: null where nobody asks.
+    explicit LightSum(const Channels* channels)
+        : shares(channels ? channels->count() : 0), channels_(channels) {}
+
+    Rgb whole;
+    std::vector<Rgb> shares;  ///< by channel, or empty
+
+    void add(const Rgb& value, std::uint32_t light, int reflections = 0) {
+        whole += value;
+        if (channels_) shares[channels_->of(light, reflections)] += value;
+    }
+    void add(const LightSum& other, const Rgb& weight) {
+        whole += other.whole * weight;
+        for (std::size_t c = 0; c < shares.size(); ++c) shares[c] += other.shares[c] * weight;
+    }
+    /// Adds the light that `sample(parts)` returns, times a weight.
+    template <typename Sample>
+    void add_sample(const Rgb& weight, const Sample& sample) {
+        LightParts parts;
+        whole += sample(channels_ ? &parts : nullptr) * weight;
+        for (const LightPart& part : parts)
+            shares[channels_->of(part.light, part.reflections)] += part.value * weight;
+    }
+    LightSum& operator*=(const Rgb& factor) {
+        whole *= factor;
+        for (Rgb& share : shares) share *= factor;
+        return *this;
+    }
+    /// The shares as parts of the whole, band by band; null where there are no channels.
+    std::shared_ptr<const std::vector<Rgb>> relative_shares() const {
+        if (!channels_) return nullptr;
+        auto relative = std::make_shared<std::vector<Rgb>>(shares);
+        for (Rgb& share : *relative) {
+            for (std::size_t b = 0; b < kBands; ++b) share[b] = whole[b] != 0 ? share[b] / whole[b] : 0;
+        }
+        return relative;
+    }
+    /// The sum after one more reflection, with the same whole.
+    void reflect() {
+        if (!channels_) return;
+        std::vector<Rgb> reflected(shares.size());
+        for (std::size_t c = 0; c < shares.size(); ++c) reflected[channels_->after(c, 1)] += shares[c];
+        shares = std::move(reflected);
+    }
+
+  private:
+    const Channels* channels_;
 };
 
 }  // namespace stilb::transport

@@ -85,7 +85,7 @@ class ChannelsOf : public testing::TestWithParam<const char*> {
     Scene scene_ = furnished_room();
     rays::RayCaster caster_{scene_};
     std::vector<Measurand> readings_ = readings();
-    Channels channels_{kGroups, 2, kOrders};
+    Channels channels_{{{"first", "second"}, kGroups}, kOrders};
 };
 
 TEST_P(ChannelsOf, AddUpToTheWhole) {

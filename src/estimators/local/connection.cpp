@@ -81,18 +81,14 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
 }
 
 /// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
-/// `channels`: null, or those of the readings; all vertices of the block then are in the channel of `node`.
-void flush(const PointTile& tile, TileSums& sums, Tally& readings,
-           const transport::Channels* channels = nullptr, const transport::LightVertex* node = nullptr) {
+/// `add_shares(reading, received, response, reflections)`: adds what the channels get of what a receiver gets.
+template <typename AddShares>
+void flush(const PointTile& tile, TileSums& sums, Tally& readings, const AddShares& add_shares) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Rgb response = tile.response_of(i);
         const Rgb received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
         readings.sum[tile.readings[i]] += response * received;
-        if (channels) {
-            const transport::LightPart part{received, node->light, node->reflections};
-            channels->add({&part, 1}, response, tile.receivers[i].reflections(), tile.readings[i],
-                          readings.parts);
-        }
+        add_shares(tile.readings[i], received, response, tile.receivers[i].reflections());
         double& largest = readings.largest[tile.readings[i]];
         largest = std::max(largest, response.luminance() * double{sums.largest[i]});
     }
@@ -106,7 +102,8 @@ ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3&
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
     ConnectedVertex result{{SegmentOrigin(node.position, node.lifted, node.normal, center),
                             node.only_by_light || !diffuse ? 0.0f : 1.0f,
-                            {}},
+                            {},
+                            node.shares},
                            &node,
                            diffuse == nullptr};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
@@ -120,13 +117,28 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Tally& 
     connected_vertices.reserve(nodes.size());
     for (const transport::LightVertex& node : nodes)
         connected_vertices.push_back(connected_vertex(node, caster_.center()));
+    // Vertices of one channel, or of the same shares, one after another, so that their sums are flushed
+    // together.
     const auto channel_of = [&](const ConnectedVertex& vertex) {
-        return std::pair(channels_->group_of_light[vertex.node->light], vertex.node->reflections);
+        return std::pair(channels_->groups.of_light[vertex.node->light], vertex.node->reflections);
     };
     if (channels_) std::ranges::stable_sort(connected_vertices, {}, channel_of);
     const auto ends_channel = [&](std::size_t n) {
         return channels_ && n + 1 < connected_vertices.size() &&
-               channel_of(connected_vertices[n]) != channel_of(connected_vertices[n + 1]);
+               (channel_of(connected_vertices[n]) != channel_of(connected_vertices[n + 1]) ||
+                connected_vertices[n].shares != connected_vertices[n + 1].shares);
+    };
+    const auto flush_channel = [&](const PointTile& tile, TileSums& tile_sums,
+                                   const transport::LightVertex& node) {
+        flush(tile, tile_sums, sums,
+              [&](std::size_t reading, const Rgb& received, const Rgb& response, int reflections) {
+                  if (!channels_) return;
+                  if (node.shares)
+                      return channels_->add(std::span(*node.shares), response * received,
+                                            node.reflections - 1 + reflections, reading, sums.parts);
+                  const transport::LightPart part{received, node.light, node.reflections};
+                  channels_->add({&part, 1}, response, reflections, reading, sums.parts);
+              });
     };
     RayPacket packet;
     LaneMask lanes;
@@ -146,13 +158,13 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Tally& 
                 }
             }
             if (ends_block(n, connected_vertices.size()) || ends_channel(n))
-                flush(tile, tile_sums, sums, channels_, node.node);
+                flush_channel(tile, tile_sums, *node.node);
         }
     }
 }
 
 void connect_points(const rays::RayCaster& caster, const PointTile& tile,
-                    std::span<const EmittingPoint> points, Tally& sums) {
+                    std::span<const EmittingPoint> points, Tally& sums, const transport::Channels* channels) {
     RayPacket packet;
     LaneMask lanes;
     alignas(64) Floats g_per_m2;
@@ -163,7 +175,13 @@ void connect_points(const rays::RayCaster& caster, const PointTile& tile,
             caster.occlude(packet, lanes);
             add_visible(points[n], tile, packet, lanes, g_per_m2, tile_sums);
         }
-        if (ends_block(n, points.size())) flush(tile, tile_sums, sums);
+        if (!channels && !ends_block(n, points.size())) continue;
+        flush(tile, tile_sums, sums,
+              [&](std::size_t reading, const Rgb& received, const Rgb& response, int reflections) {
+                  if (channels)
+                      channels->add(std::span(*points[n].shares), response * received, reflections, reading,
+                                    sums.parts);
+              });
     }
 }
 

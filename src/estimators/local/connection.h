@@ -7,6 +7,7 @@
 
 #include <array>
 #include <cstddef>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -43,9 +44,12 @@ struct EmittingPoint {
     /// Divides the k of the receivers' tile; 0: w = 1.
     float split = 1;
     std::array<float, kBands> coefficient{};  ///< luminance over density: receivers get it times w G
+    /// The shares of the channels in it, as those of a LightVertex; null where nobody asks.
+    std::shared_ptr<const std::vector<Rgb>> shares = nullptr;
 };
 /// Adds the light of points to the receivers of a tile, whose responses must be constant. Counts rays.
+/// `channels`: null, or those of the shares and of the tally.
 void connect_points(const rays::RayCaster& caster, const PointTile& tile,
-                    std::span<const EmittingPoint> points, Tally& sums);
+                    std::span<const EmittingPoint> points, Tally& sums, const transport::Channels* channels);
 
 }  // namespace stilb::estimators

@@ -88,7 +88,7 @@ class LocalReadings {
                   channels_) {
         if (!is_guided_) return;
         guided_.emplace(*guide, seen_.receivers, seen_.dark, transport_.monitor);
-        guided_->add_known(seen_.known_part);
+        guided_->add_known(seen_.known_part, seen_.known_parts);
     }
 
     void run_batch(const Batch& batch, Tally& sums) const {

@@ -120,7 +120,7 @@ class PathEstimator final : public Estimator {
           preparation_key_(problem.preparation_key),
           stands_for_(problem.stands_for),
           paths_(scene_, caster_, problem.patches, problem.monitor),
-          channels_(problem.channels),
+          channels_(paths_.patches ? nullptr : problem.channels),
           known_part_(problem.measurands.size()),
           known_parts_(channels_ ? channels_->count() * problem.measurands.size() : 0),
           sight_ends_(problem.measurands.size()) {

@@ -32,7 +32,8 @@ auto BoundedDirect::sample_particle(math::SampleStream& stream) const -> std::op
     if (!seen.hit) return std::nullopt;
     const double rest = 1 - share(squared_length(seen.hit->position - particle.origin));
     if (stream.next() >= rest) return std::nullopt;
-    return Particle{*seen.hit, particle.direction, particle.flux_lm * seen.transmittance, particle.favour};
+    return Particle{*seen.hit, particle.direction, particle.flux_lm * seen.transmittance, particle.favour,
+                    particle.light};
 }
 
 }  // namespace stilb::estimators

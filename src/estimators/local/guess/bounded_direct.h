@@ -22,6 +22,7 @@ struct SidePoint {
 struct Arrival {
     Vec3 direction;  ///< unit, towards the light
     Rgb illuminance_lx;
+    std::uint32_t light = 0;  ///< of Scene::lights
 };
 
 /// Keeps references to its arguments. Immutable.
@@ -43,7 +44,8 @@ class BoundedDirect {
         rays::Hit hit;
         Vec3 direction;
         Rgb flux_lm;
-        double favour = 1;  ///< as transport::EmittedParticle's
+        double favour = 1;        ///< as in transport::EmittedParticle
+        std::uint32_t light = 0;  ///< of Scene::lights
     };
     /// Nothing where it is not close to its light.
     std::optional<Particle> sample_particle(math::SampleStream& stream) const;
@@ -93,7 +95,7 @@ void BoundedDirect::add(const std::optional<lights::IncidentLight>& light, doubl
         weight *= share(squared_length(light->source_point - at.position));
     const Rgb arriving = light->normal_illuminance_lx *
                          caster_.transmittance({at.lifted, light->source_point}) * (weight * cosine);
-    if (arriving.max() > 0) visit(Arrival{light->direction, arriving});
+    if (arriving.max() > 0) visit(Arrival{light->direction, arriving, light->light});
 }
 
 }  // namespace stilb::estimators

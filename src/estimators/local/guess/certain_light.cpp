@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "base/rays.h"
@@ -60,16 +61,22 @@ STILB_INLINED float edge(const Lane& n, const Lane& u, const Lane& v) {
            (n.x * (u.y * v.z - u.z * v.y) + n.y * (u.z * v.x - u.x * v.z) + n.z * (u.x * v.y - u.y * v.x));
 }
 
-STILB_VECTORIZED void add_triangle(const PointTile& __restrict tile, const Directions& __restrict a,
+STILB_VECTORIZED void see_triangle(const PointTile& __restrict tile, const Directions& __restrict a,
                                    const Directions& __restrict b, const Directions& __restrict c,
-                                   const std::array<float, kBands>& luminance,
-                                   std::array<Floats, kBands>& __restrict sums) {
-    const float l0 = luminance[0] / 2, l1 = luminance[1] / 2, l2 = luminance[2] / 2;
+                                   Floats& __restrict projected_sr) {
     for (int i = 0; i < kPacketWidth; ++i) {
         const Lane n{tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]};
         const Lane u = a.of(i), v = b.of(i), w = c.of(i);
-        const float sum = edge(n, u, v) + edge(n, v, w) + edge(n, w, u);
-        sums[0][i] += l0 * sum, sums[1][i] += l1 * sum, sums[2][i] += l2 * sum;
+        projected_sr[i] = (edge(n, u, v) + edge(n, v, w) + edge(n, w, u)) / 2;
+    }
+}
+
+STILB_VECTORIZED void add(const Floats& __restrict projected_sr, const std::array<float, kBands>& luminance,
+                          std::array<Floats, kBands>& __restrict sums) {
+    const float l0 = luminance[0], l1 = luminance[1], l2 = luminance[2];
+    for (int i = 0; i < kPacketWidth; ++i) {
+        sums[0][i] += l0 * projected_sr[i], sums[1][i] += l1 * projected_sr[i],
+            sums[2][i] += l2 * projected_sr[i];
     }
 }
 
@@ -85,11 +92,9 @@ STILB_INLINED Lane choose(bool first, const Lane& u, const Lane& v) {
 }
 
 /// The same of the part above the horizon.
-STILB_VECTORIZED void add_cut_triangle(const PointTile& __restrict tile, const Directions& __restrict a,
+STILB_VECTORIZED void see_cut_triangle(const PointTile& __restrict tile, const Directions& __restrict a,
                                        const Directions& __restrict b, const Directions& __restrict c,
-                                       const std::array<float, kBands>& luminance,
-                                       std::array<Floats, kBands>& __restrict sums) {
-    const float l0 = luminance[0] / 2, l1 = luminance[1] / 2, l2 = luminance[2] / 2;
+                                       Floats& __restrict projected_sr) {
     for (int i = 0; i < kPacketWidth; ++i) {
         const Lane n{tile.normal_x[i], tile.normal_y[i], tile.normal_z[i]};
         const Lane u = a.of(i), v = b.of(i), w = c.of(i);
@@ -105,8 +110,13 @@ STILB_VECTORIZED void add_cut_triangle(const PointTile& __restrict tile, const D
         const Lane back = choose(above_v & !above_u, uv, choose(above_w & !above_v, vw, wu));
         const bool is_cut = (above_u | above_v | above_w) & !(above_u & above_v & above_w);
         sum += is_cut ? edge(n, down, back) : 0.0f;
-        sums[0][i] += l0 * sum, sums[1][i] += l1 * sum, sums[2][i] += l2 * sum;
+        projected_sr[i] = sum / 2;
     }
+}
+
+std::array<float, kBands> single(const Rgb& luminance) {
+    return {static_cast<float>(luminance[0]), static_cast<float>(luminance[1]),
+            static_cast<float>(luminance[2])};
 }
 
 }  // namespace
@@ -117,7 +127,7 @@ CertainLight::CertainLight(const LightGuess& guess, const Sights& sights) {
     std::vector<std::uint32_t> numbers(patches.vertices.size(), none);
     for (const std::uint32_t side : guess.lit_sides()) {
         if (sights[side] != Sight::certain) continue;
-        Triangle& triangle = triangles_.emplace_back();
+        std::array<std::uint32_t, 3>& triangle = triangles_.emplace_back();
         const auto& vertices = patches.corners[patches.patch_of(side)];
         for (std::size_t c = 0; c < 3; ++c) {
             const std::uint32_t vertex = vertices[patches.is_front(side) ? 2 - c : c];
@@ -125,22 +135,26 @@ CertainLight::CertainLight(const LightGuess& guess, const Sights& sights) {
                 numbers[vertex] = static_cast<std::uint32_t>(corners_.size());
                 corners_.push_back(patches.vertices[vertex]);
             }
-            triangle.corners[c] = numbers[vertex];
+            triangle[c] = numbers[vertex];
         }
-        const Rgb mean = guess.mean_cd_m2(side);
-        for (std::size_t b = 0; b < kBands; ++b) triangle.luminance[b] = static_cast<float>(mean[b]);
+        const transport::LightSum mean = guess.mean(side);
+        luminances_.push_back(single(mean.whole));
+        std::ranges::transform(mean.shares, std::back_inserter(luminances_), single);
     }
+    sums_ = 1 + (guess.channels() ? guess.channels()->count() : 0);
 }
 
-std::array<Floats, kBands> CertainLight::illuminances_lx(const PointTile& tile) const {
+auto CertainLight::illuminances_lx(const PointTile& tile) const -> std::vector<Illuminances> {
     std::vector<Directions> directions(corners_.size());
     for (std::size_t i = 0; i < corners_.size(); ++i) look(tile, corners_[i], directions[i]);
-    std::array<Floats, kBands> sums{};
-    for (const Triangle& t : triangles_) {
-        const Directions &a = directions[t.corners[0]], &b = directions[t.corners[1]],
-                         &c = directions[t.corners[2]];
+    std::vector<Illuminances> sums(sums_);
+    alignas(64) Floats projected_sr;
+    for (std::size_t t = 0; t < triangles_.size(); ++t) {
+        const auto [first, second, third] = triangles_[t];
+        const Directions &a = directions[first], &b = directions[second], &c = directions[third];
         const bool is_above = std::min({a.least_height, b.least_height, c.least_height}) >= 0;
-        (is_above ? add_triangle : add_cut_triangle)(tile, a, b, c, t.luminance, sums);
+        (is_above ? see_triangle : see_cut_triangle)(tile, a, b, c, projected_sr);
+        for (std::size_t s = 0; s < sums_; ++s) add(projected_sr, luminances_[t * sums_ + s], sums[s]);
     }
     return sums;
 }

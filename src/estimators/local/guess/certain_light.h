@@ -21,16 +21,15 @@ class CertainLight {
   public:
     CertainLight(const LightGuess& guess, const Sights& sights);
 
-    /// The illuminances of a tile's receivers, which are on surfaces [lx].
-    std::array<PointTile::Floats, kBands> illuminances_lx(const PointTile& tile) const;
+    using Illuminances = std::array<PointTile::Floats, kBands>;  ///< of a tile's receivers [lx]
+    /// What receivers on surfaces get, and then the share of each channel in it.
+    std::vector<Illuminances> illuminances_lx(const PointTile& tile) const;
 
   private:
-    struct Triangle {
-        std::array<std::uint32_t, 3> corners;  ///< of `corners_`, clockwise as the receivers see them
-        std::array<float, kBands> luminance;   ///< [cd/m2]
-    };
     std::vector<patches::Float3> corners_;  ///< relative to the ray caster's centre
-    std::vector<Triangle> triangles_;
+    std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< of corners, clockwise as the receivers see them
+    std::size_t sums_ = 1;                                 ///< the whole and its shares
+    std::vector<std::array<float, kBands>> luminances_;    ///< triangles x sums [cd/m2]
 };
 
 }  // namespace stilb::estimators

@@ -39,6 +39,11 @@ void avoid_tiny_components(RayPacket& packet) {
     }
 }
 
+void add_shares(const transport::LightSum& light, std::vector<Rgb>& to) {
+    to.resize(light.shares.size());
+    for (std::size_t c = 0; c < to.size(); ++c) to[c] += light.shares[c];
+}
+
 }  // namespace
 
 std::vector<GatherPoint> gather_points(math::RandomKey key, std::uint64_t first, std::uint64_t count) {
@@ -107,47 +112,62 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
             light.cosine[i] > 0
                 ? cosine[i] * light.cosine[i] / (packet.ray.end[i] * packet.ray.end[i]) * tile.inverse_k[i]
                 : 0;
-        const Rgb gathered = gathered_cd_m2(light, i, g_over_k, shares);
-        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += static_cast<float>(gathered[b]);
-        double largest = std::abs(gathered.luminance());
+        const transport::LightSum gathered = gathered_cd_m2(light, i, g_over_k, shares);
+        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += static_cast<float>(gathered.whole[b]);
+        add_shares(gathered, sums.shares[i]);
+        double largest = std::abs(gathered.whole.luminance());
         const Continuation continuation = continuation_of(light, i, double{g_over_k});
         if (fraction(u[2] + double{lanes.roulette[i]}) < continuation.probability) {
             const Vec3 direction = normalized(
                 Vec3{packet.ray.direction_x[i], packet.ray.direction_y[i], packet.ray.direction_z[i]});
-            const Rgb found = missing(tile.receivers[i], direction, light, i, continuation,
-                                      math::SampleStream(key.derived(i), round, 0));
-            sums.found[i] += found;
+            const transport::LightSum found = missing(tile.receivers[i], direction, light, i, continuation,
+                                                      math::SampleStream(key.derived(i), round, 0));
+            sums.found[i] += found.whole;
+            add_shares(found, sums.shares[i]);
             ++sums.continued;
-            largest = std::max(largest, std::abs(found.luminance()));
+            largest = std::max(largest, std::abs(found.whole.luminance()));
         }
         sums.largest[i] = std::max(sums.largest[i], largest);
     }
 }
 
-Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
-                                const Shares& shares) const {
+transport::LightSum GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
+                                                const Shares& shares) const {
     const std::uint32_t side = light.sides[lane];
-    const Rgb luminance = light.luminance_of(lane);
+    transport::LightSum luminance = guess_.seen(light, lane);
     if (side == patches::kNoSide) return luminance;
     switch (shares.sights.empty() ? Sight::uncertain : shares.sights[side]) {
         case Sight::uncertain:
-            return luminance * double{1 - 1 / (1 + shares.split * g_over_k)};
+            luminance *= Rgb::grey(double{1 - 1 / (1 + shares.split * g_over_k)});
+            break;
         case Sight::certain:
-            return luminance + guess_.mean_cd_m2(side) * -1;
+            luminance.add(guess_.mean(side), Rgb::grey(-1));
+            break;
         case Sight::none:
             break;
     }
     return luminance;
 }
 
-void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings) {
+void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings) const {
     readings.continued += sums.continued;
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
         const Rgb per_ray = tile.response_of(i) * (kPi * weight);
         Rgb sum = sums.found[i];
         for (std::size_t b = 0; b < kBands; ++b) sum[b] += double{sums.guessed[b][i]};
         readings.add(tile.readings[i], per_ray * sum, per_ray.luminance() * sums.largest[i]);
+        if (guess_.channels())
+            guess_.channels()->add(std::span(sums.shares[i]), per_ray, tile.receivers[i].reflections(),
+                                   tile.readings[i], readings.parts);
     }
+}
+
+void GuessGather::add(const transport::LightSum& light, const transport::Receiver& receiver,
+                      Tally& readings) const {
+    readings.add(receiver.reading(), light.whole);
+    if (guess_.channels())
+        guess_.channels()->add(std::span(light.shares), Rgb::grey(1), receiver.reflections(),
+                               receiver.reading(), readings.parts);
 }
 
 void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
@@ -178,21 +198,26 @@ void GuessGather::add_general_round(const PointTile& tile, math::RandomKey key, 
                                     : 0;
         const Continuation continuation = continuation_of(light, i, g_over_k);
         math::SampleStream stream(key.derived(kPacketWidth + i), round, 0);
-        Rgb luminance = light.luminance_of(i);
+        transport::LightSum luminance = guess_.seen(light, i);
         if (stream.next() < continuation.probability)
-            luminance += missing(receiver, direction, light, i, continuation, stream);
-        readings.add(receiver.reading(), samples[i].weight * luminance);
+            luminance.add(missing(receiver, direction, light, i, continuation, stream), Rgb::grey(1));
+        add(luminance *= samples[i].weight, receiver, readings);
     }
 }
 
-Rgb GuessGather::traced(const transport::Receiver& receiver, math::SampleStream stream) const {
+transport::LightSum GuessGather::traced(const transport::Receiver& receiver,
+                                        math::SampleStream stream) const {
+    transport::LightSum light(guess_.channels());
     const auto [u1, u2] = stream.next_two();
     const auto sample = receiver.sample(u1, u2);
-    if (!sample) return {};
+    if (!sample) return light;
     const auto hit = caster_.closest(receiver.lifted(), sample->direction);
-    if (!hit) return {};
-    return sample->weight *
-           tracer_.luminance_without_direct(*hit, sample->direction, transport::kUnlimited, stream);
+    if (!hit) return light;
+    light.add_sample(sample->weight, [&](auto* parts) {
+        return tracer_.luminance_without_direct(*hit, sample->direction, transport::kUnlimited, stream,
+                                                parts);
+    });
+    return light;
 }
 
 auto GuessGather::continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const
@@ -205,21 +230,32 @@ auto GuessGather::continuation_of(const GuessedLight& light, std::size_t lane, d
     return {shares, continuation_probability(material, shares), false};
 }
 
-Rgb GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction,
-                         const GuessedLight& light, std::size_t lane, const Continuation& continuation,
-                         math::SampleStream stream) const {
+transport::LightSum GuessGather::missing(const transport::Receiver& receiver, const Vec3& direction,
+                                         const GuessedLight& light, std::size_t lane,
+                                         const Continuation& continuation, math::SampleStream stream) const {
     const auto& [shares, probability, is_traced] = continuation;
-    if (!is_traced && !guess_.material(light.sides[lane]).gloss)
-        return residual_.missing_cd_m2(light.sides[lane], light.barycentric_of(lane), stream) *
-               (shares.diffuse() / probability);
+    if (!is_traced && !guess_.material(light.sides[lane]).gloss) {
+        transport::LightSum missing =
+            residual_.missing_cd_m2(light.sides[lane], light.barycentric_of(lane), stream);
+        return missing *= Rgb::grey(shares.diffuse() / probability);
+    }
     const auto hit = caster_.closest(receiver.lifted(), direction);
-    if (is_traced)
-        return hit ? tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream) : Rgb{};
-    Rgb luminance = light.luminance_of(lane) * -shares.diffuse();
+    if (is_traced) {
+        transport::LightSum all(guess_.channels());
+        if (hit)
+            all.add_sample(Rgb::grey(1), [&](auto* parts) {
+                return tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream,
+                                                        parts);
+            });
+        return all;
+    }
+    transport::LightSum luminance = guess_.seen(light, lane);
+    luminance *= Rgb::grey(-shares.diffuse());
     if (hit)
-        luminance +=
-            reflected_luminance(tracer_, *hit, -direction, guess_.material(hit->material), shares, stream);
-    return luminance * (1 / probability);
+        luminance.add(reflected_luminance(tracer_, *hit, -direction, guess_.material(hit->material), shares,
+                                          stream, guess_.channels()),
+                      Rgb::grey(1));
+    return luminance *= Rgb::grey(1 / probability);
 }
 
 }  // namespace stilb::estimators

@@ -54,6 +54,7 @@ class GuessGather {
     struct Sums {
         std::array<PointTile::Floats, kBands> guessed{};
         std::array<Rgb, kPacketWidth> found{};  ///< by path tracing beyond the guess
+        std::array<std::vector<Rgb>, kPacketWidth> shares;  ///< of the channels in both; empty without
         std::array<double, kPacketWidth> largest{};
         std::uint64_t continued = 0;  ///< rays
     };
@@ -74,16 +75,18 @@ class GuessGather {
     void add_general_round(const PointTile& tile, math::RandomKey key, std::uint64_t round,
                            Tally& readings) const;
     /// A sample of a receiver's light by path tracing alone.
-    Rgb traced(const transport::Receiver& receiver, math::SampleStream stream) const;
+    transport::LightSum traced(const transport::Receiver& receiver, math::SampleStream stream) const;
     /// Adds the light of the rays to the readings, `weight` times.
-    static void flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings);
+    void flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings) const;
+    /// Adds light that a receiver gets to its reading.
+    void add(const transport::LightSum& light, const transport::Receiver& receiver, Tally& readings) const;
 
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, RayPacket& packet,
                   PointTile::Floats& cosine) const;
     /// The guessed light that the ray of a lane brings [cd/m2]. `g_over_k`: with the k of the residual.
-    Rgb gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
-                       const Shares& shares) const;
+    transport::LightSum gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
+                                       const Shares& shares) const;
     /// How a ray is continued beyond the guess.
     struct Continuation {
         PartShares shares;
@@ -93,8 +96,9 @@ class GuessGather {
     Continuation continuation_of(const GuessedLight& light, std::size_t lane, double g_over_k) const;
     /// The luminance that the continued ray of a lane finds beyond the guess, divided by the probability
     /// [cd/m2].
-    Rgb missing(const transport::Receiver& receiver, const Vec3& direction, const GuessedLight& light,
-                std::size_t lane, const Continuation& continuation, math::SampleStream stream) const;
+    transport::LightSum missing(const transport::Receiver& receiver, const Vec3& direction,
+                                const GuessedLight& light, std::size_t lane, const Continuation& continuation,
+                                math::SampleStream stream) const;
 
     const rays::RayCaster& caster_;
     const transport::PathTracer& tracer_;

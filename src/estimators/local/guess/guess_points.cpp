@@ -28,7 +28,7 @@ GuessPoints::GuessPoints(const LightGuess& guess, const rays::RayCaster& caster,
       all_(guess.patches().center) {
     std::vector<double> luminances_cd_m2;
     for (const std::uint32_t side : guess.lit_sides()) {
-        luminances_cd_m2.push_back(guess.mean_cd_m2(side).luminance());
+        luminances_cd_m2.push_back(guess.mean(side).whole.luminance());
         weights_.push_back(luminances_cd_m2.back() *
                            double{guess.patches().areas_m2[guess.patches().patch_of(side)]});
     }
@@ -93,12 +93,13 @@ void GuessPoints::select(const Choice& choice, const std::array<double, 2>& u,
         const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
         if (!guess_.shared_places().owns(side, at_side)) return;
         const SidePoint point = side_point(patches, caster_, side, at_side);
-        const Rgb light = guess_.luminance_cd_m2(side, at_side) *
-                          (double{patches.areas_m2[patches.patch_of(side)]} * times);
+        const transport::LightSum guessed = guess_.at(side, at_side);
+        const Rgb light = guessed.whole * (double{patches.areas_m2[patches.patch_of(side)]} * times);
         points.push_back(
             {SegmentOrigin(point.position, point.lifted, point.normal, caster_.center()),
              choice.split,
-             {static_cast<float>(light[0]), static_cast<float>(light[1]), static_cast<float>(light[2])}});
+             {static_cast<float>(light[0]), static_cast<float>(light[1]), static_cast<float>(light[2])},
+             guessed.relative_shares()});
     });
 }
 

@@ -35,19 +35,20 @@ std::unique_ptr<GuidedLight> GuidedLight::make(const Problem& problem, const tra
                                                const transport::PathTracer& tracer, math::KeyOf<Stream> key) {
     if (problem.max_reflections != transport::kUnlimited || !(surface_area_m2(problem.scene) > 0))
         return nullptr;
-    return std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.monitor);
+    return std::make_unique<GuidedLight>(problem.scene, problem.caster, lights, tracer, key, problem.channels,
+                                         problem.monitor);
 }
 
 GuidedLight::GuidedLight(const Scene& scene, const rays::RayCaster& all,
                          const transport::LightSampler& lights, const transport::PathTracer& tracer,
-                         math::KeyOf<Stream> key, const Monitor& monitor)
+                         math::KeyOf<Stream> key, const transport::Channels* channels, const Monitor& monitor)
     : caster(all),
       finds_all_by_rays(!has_light_for_light_paths_only(scene)),
       dark_key(key.derived(Stream::dark)),
       samples_together(std::max<std::uint64_t>(
           1, paths_at_once(scene, kSamplesTogether * kPathsPerSample) / kPathsPerSample)),
       direct(scene, all, lights),
-      guess(scene, all, direct, tracer, {key.derived(Stream::guess)}, monitor),
+      guess(scene, all, direct, tracer, {key.derived(Stream::guess)}, channels, monitor),
       residual(scene, all, lights, direct, tracer, guess, key.derived(Stream::pilot), monitor),
       points(guess, all, residual.area_m2()),
       gather(all, tracer, guess, residual),
@@ -77,7 +78,7 @@ std::size_t GuidedLight::put_dark_last(std::vector<transport::Receiver>& receive
     if (!finds_all_by_rays) return 0;
     const auto finds_light = [&](std::size_t j, std::uint64_t paths) {
         for (std::uint64_t i = 0; i < paths; ++i) {
-            if (gather.traced(receivers[j], math::SampleStream(dark_key.derived(j), i, 2)).max() > 0)
+            if (gather.traced(receivers[j], math::SampleStream(dark_key.derived(j), i, 2)).whole.max() > 0)
                 return true;
         }
         return false;
@@ -146,6 +147,7 @@ void GuidedReadings::make_sources() {
     }
     std::vector<Sights> sights = light_.sides.find(receivers);
     known_.resize(lit_);
+    if (light_.guess.channels()) known_shares_.resize(lit_);
     sources_.reserve(groups_.size());
     for (std::size_t g = 0; g < groups_.size(); ++g) {
         monitor_.require_more();
@@ -154,9 +156,14 @@ void GuidedReadings::make_sources() {
         for (std::size_t t = groups_[g].first; t < groups_[g].last; ++t) {
             const auto lx = certain.illuminances_lx(tiles_[t]);
             for (std::size_t i = 0; i < tiles_[t].receivers.size(); ++i) {
-                const Rgb received{{lx[0][i], lx[1][i], lx[2][i]}};
-                certain_lx += received.luminance() / static_cast<double>(receivers[g].size());
-                known_[t * kPacketWidth + i] = received * tiles_[t].response_of(i);
+                const auto received = [&](const CertainLight::Illuminances& own) {
+                    return Rgb{{own[0][i], own[1][i], own[2][i]}};
+                };
+                const Rgb response = tiles_[t].response_of(i);
+                certain_lx += received(lx[0]).luminance() / static_cast<double>(receivers[g].size());
+                known_[t * kPacketWidth + i] = received(lx[0]) * response;
+                for (std::size_t c = 1; c < lx.size(); ++c)
+                    known_shares_[t * kPacketWidth + i].push_back(received(lx[c]) * response);
             }
         }
         sources_.push_back({light_.points.uncertain_sides(groups_[g].spread, sights[g], certain_lx, kPoints),
@@ -164,8 +171,11 @@ void GuidedReadings::make_sources() {
     }
 }
 
-void GuidedReadings::add_known(std::span<Rgb> readings) const {
+void GuidedReadings::add_known(std::span<Rgb> readings, std::span<Rgb> parts) const {
     for (std::size_t j = 0; j < known_.size(); ++j) readings[even_[j].reading()] += known_[j];
+    for (std::size_t j = 0; j < known_shares_.size(); ++j)
+        light_.guess.channels()->add(std::span<const Rgb>(known_shares_[j]), Rgb::grey(1),
+                                     even_[j].reflections(), even_[j].reading(), parts);
 }
 
 auto GuidedReadings::groups_of(std::span<const PointTile> tiles, double largest_extent_m)
@@ -238,7 +248,7 @@ void GuidedReadings::gather_dark(const Batch& batch, Tally& sums) const {
         const Batch own = batch.of_packet(j / kPacketWidth);
         const math::RandomKey key = batch.key.derived(BatchStream::dark).derived(j);
         for (std::uint64_t i = own.first; i < own.first + own.count; ++i)
-            sums.add(even_[j].reading(), light_.gather.traced(even_[j], math::SampleStream(key, i, 2)));
+            light_.gather.add(light_.gather.traced(even_[j], math::SampleStream(key, i, 2)), even_[j], sums);
         sums.rays += own.count;
     }
 }
@@ -266,8 +276,8 @@ void GuidedReadings::gather(const Batch& batch, Tally& sums) const {
                                  {fraction(points[i][0] + random[0]), fraction(points[i][1] + random[1])},
                                  connected);
         }
-        connect_points(light_.caster, tile, connected, sums);
-        GuessGather::flush(tile, tile_sums, 1, sums);
+        connect_points(light_.caster, tile, connected, sums, light_.guess.channels());
+        light_.gather.flush(tile, tile_sums, 1, sums);
         sums.rays += own.count * tile.receivers.size();
     }
 }
@@ -301,7 +311,8 @@ void GuidedReadings::connect(const NearNodePool& pool, std::span<const PointTile
                 pool.select(*near, kVerticesPerSample * taken, math::SampleStream(key, t, 0).next());
             const double share = static_cast<double>(taken) / static_cast<double>(batch.count);
             for (transport::LightVertex& node : nodes) node.flux_lm *= share;
-            Connections(light_.caster, tiles.subspan(t, 1), monitor_).collect(nodes, sums);
+            Connections(light_.caster, tiles.subspan(t, 1), monitor_, light_.guess.channels())
+                .collect(nodes, sums);
         }
     }
 }

@@ -27,12 +27,14 @@ struct GuidedLight {
     /// Parts of its key.
     enum class Stream : std::uint64_t { guess, pilot, dark };
 
-    /// The guided light of a problem; null where reflections have a limit, or there are none.
+    /// The guided light of a problem, divided into its channels; null where reflections have a limit, or there
+    /// are none.
     static std::unique_ptr<GuidedLight> make(const Problem& problem, const transport::LightSampler& lights,
                                              const transport::PathTracer& tracer, math::KeyOf<Stream> key);
 
     GuidedLight(const Scene& scene, const rays::RayCaster& caster, const transport::LightSampler& lights,
-                const transport::PathTracer& tracer, math::KeyOf<Stream> key, const Monitor& monitor);
+                const transport::PathTracer& tracer, math::KeyOf<Stream> key,
+                const transport::Channels* channels, const Monitor& monitor);
 
     /// Of connections to the residual, where so many points of the guess are connected at once.
     double k_per_m2(std::size_t points_at_once) const { return points.residual_k_per_m2(points_at_once); }
@@ -84,8 +86,8 @@ class GuidedReadings {
     /// many of these as readings, all of constant response.
     void collect(const Batch& batch, Tally& sums) const;
     bool can_have_paces() const { return general_tiles_.empty(); }
-    /// Adds the light that needs no samples.
-    void add_known(std::span<Rgb> readings) const;
+    /// Adds the light that needs no samples. `parts`: as Estimator's known_parts().
+    void add_known(std::span<Rgb> readings, std::span<Rgb> parts) const;
     // As Estimator's.
     bool is_met_by_chance(const rays::Hit& place) const { return light_.guess.is_traced(place); }
     double rays_per_sample() const;
@@ -122,7 +124,8 @@ class GuidedReadings {
     std::vector<PointTile> tiles_, general_tiles_;  ///< not of dark ones
     std::vector<Group> groups_, general_groups_;
     std::vector<Sources> sources_;  ///< per group of tiles_
-    std::vector<Rgb> known_;        ///< per even receiver that is lit
+    std::vector<Rgb> known_;                      ///< per even receiver that is lit
+    std::vector<std::vector<Rgb>> known_shares_;  ///< of the channels in it; none without channels
     const Monitor& monitor_;
 };
 

@@ -97,7 +97,7 @@ class GuidedPicture final : public LocalPicture {
             const std::vector<PointTile> tiles = guide.tiles(packet.receivers, kPoints);
             const double u =
                 math::SampleStream(packet.key(pass_, PassStream::residual_selection), pass_.index).next();
-            Connections(guide.caster, tiles, picture_.transport_.monitor)
+            Connections(guide.caster, tiles, picture_.transport_.monitor, guide.guess.channels())
                 .collect(pool_.select(near, kVertices, u), sums);
             gather(packet, tiles, sums);
         }
@@ -117,14 +117,14 @@ class GuidedPicture final : public LocalPicture {
                 {fraction(selection_point_[0] + shifts[0][0]), fraction(selection_point_[1] + shifts[0][1])},
                 points);
             for (const PointTile& tile : tiles) {
-                connect_points(guide.caster, tile, points, sums);
+                connect_points(guide.caster, tile, points, sums, guide.guess.channels());
                 const GatherLanes lanes(tile, shifts);
                 GuessGather::Sums gathered;
                 for (std::uint64_t i = 0; i < kRays; ++i)
                     guide.gather.add_round(tile, lanes, gather_points_[i],
                                            packet.key(pass_, PassStream::continued_rays),
                                            kRays * pass_.index + i, {{}, guide.points.split()}, gathered);
-                GuessGather::flush(tile, gathered, 1. / kRays, sums);
+                guide.gather.flush(tile, gathered, 1. / kRays, sums);
             }
         }
 

@@ -90,13 +90,13 @@ struct LightGuess::Solver {
         std::vector<std::uint32_t> sides;
         std::size_t width = 0;
         std::vector<std::uint32_t> seen;  ///< sides x width; kNoSide where there is none, or a mirror
-        std::vector<Rgb> source_lx;       ///< direct light, and light by mirrors and glass
+        std::vector<transport::LightSum> source_lx;  ///< direct light, and light by mirrors and glass
     };
 
     Rows cast(std::vector<std::uint32_t> sides, std::uint64_t packets, Stream purpose) const {
         Rows rows{std::move(sides), packets * kPacketWidth, {}, {}};
         rows.seen.resize(rows.sides.size() * rows.width, patches::kNoSide);
-        rows.source_lx.resize(rows.sides.size());
+        rows.source_lx.resize(rows.sides.size(), transport::LightSum(guess.channels_));
         parallel_for_parts(
             rows.sides.size(),
             [&](std::size_t first, std::size_t last) {
@@ -116,9 +116,9 @@ struct LightGuess::Solver {
         math::SampleStream stream(key.derived(purpose).derived(side), number, 4);
         const auto [u1, u2] = stream.next_two();
         const SidePoint point = side_point(patches, caster, side, math::sample_triangle(u1, u2));
-        Rgb& source = rows.source_lx[row];
+        transport::LightSum& source = rows.source_lx[row];
         direct.sample(point, BoundedDirect::Part::bounded, kSideDirect, stream, [&](const Arrival& arrival) {
-            source += arrival.illuminance_lx * (1. / static_cast<double>(packets));
+            source.add(arrival.illuminance_lx * (1. / static_cast<double>(packets)), arrival.light);
         });
         const std::array<Vec3, kPacketWidth> directions =
             spread_directions(point.normal, stream.next_two(), number, packets);
@@ -136,9 +136,10 @@ struct LightGuess::Solver {
             } else if ((hits.exact_lanes >> i & 1u) == 0) {
                 continue;
             } else if (const auto hit = caster.closest(point.lifted, directions[i])) {
-                source +=
-                    tracer.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream) *
-                    (kPi / static_cast<double>(rows.width));
+                source.add_sample(Rgb::grey(kPi / static_cast<double>(rows.width)), [&](auto* parts) {
+                    return tracer.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream,
+                                                           parts);
+                });
             }
         }
     }
@@ -183,29 +184,32 @@ struct LightGuess::Solver {
                              [&](std::uint32_t side) { return is_lit[side] != 0; });
         return lit_sides;
     }
-    static bool is_source(const Rows& rows, std::size_t row) { return rows.source_lx[row].max() > 0; }
+    static bool is_source(const Rows& rows, std::size_t row) { return rows.source_lx[row].whole.max() > 0; }
     static bool sees_lit(std::span<const std::uint32_t> seen, const std::vector<std::uint8_t>& is_lit) {
         return std::ranges::any_of(
             seen, [&](std::uint32_t side) { return side != patches::kNoSide && is_lit[side] != 0; });
     }
 
-    /// The luminances of all sides [cd/m2], by Gauss-Seidel sweeps.
-    std::vector<Rgb> solve(const Rows& rows) const {
-        std::vector<Rgb> luminance(2 * guess.patches().count());
-        const double per_ray = kPi / static_cast<double>(rows.width);
+    /// The luminances of all sides [cd/m2], by Gauss-Seidel sweeps. The sweeps keep the sum of the shares: it
+    /// is the whole, after any number of them.
+    std::vector<transport::LightSum> solve(const Rows& rows) const {
+        std::vector<transport::LightSum> luminance(2 * guess.patches().count(),
+                                                   transport::LightSum(guess.channels_));
+        const Rgb per_ray = Rgb::grey(kPi / static_cast<double>(rows.width));
         for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
             double change = 0, total = 0;
             for (std::size_t row = 0; row < rows.sides.size(); ++row) {
-                Rgb sum;
+                transport::LightSum seen(guess.channels_), arriving = rows.source_lx[row];
                 for (std::size_t i = row * rows.width; i < (row + 1) * rows.width; ++i) {
-                    if (rows.seen[i] != patches::kNoSide) sum += luminance[rows.seen[i]];
+                    if (rows.seen[i] != patches::kNoSide) seen.add(luminance[rows.seen[i]], Rgb::grey(1));
                 }
+                arriving.add(seen, per_ray);
+                arriving.reflect();
                 const std::uint32_t side = rows.sides[row];
-                const Rgb updated = (rows.source_lx[row] + sum * per_ray) *
-                                    (guess.material(side).diffuse_reflectance * (1 / kPi));
-                change += std::abs((updated + luminance[side] * -1).luminance());
-                total += updated.luminance();
-                luminance[side] = updated;
+                arriving *= guess.material(side).diffuse_reflectance * (1 / kPi);
+                change += std::abs((arriving.whole + luminance[side].whole * -1).luminance());
+                total += arriving.whole.luminance();
+                luminance[side] = std::move(arriving);
             }
             if (change <= kChange * total) break;
         }
@@ -214,7 +218,8 @@ struct LightGuess::Solver {
 };
 
 LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
-                       const transport::PathTracer& tracer, math::KeyOf<Stream> key, const Monitor& monitor)
+                       const transport::PathTracer& tracer, math::KeyOf<Stream> key,
+                       const transport::Channels* channels, const Monitor& monitor)
     : materials_(split_materials(scene)),
       is_traced_material_(traced_materials(scene)),
       is_traced_object_(traced_objects(scene)),
@@ -222,7 +227,8 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
           scene, caster, kPatches,
           [this](ObjectId object, MaterialId material) { return !is_traced(object, material); }, monitor),
       shared_(scene, caster, patches(),
-              [this](ObjectId object, MaterialId material) { return is_traced(object, material); }) {
+              [this](ObjectId object, MaterialId material) { return is_traced(object, material); }),
+      channels_(channels) {
     std::vector<std::uint32_t> sides;
     for (std::uint32_t p = 0; p < patches().count(); ++p) {
         if (material(p).diffuse_reflectance.max() > 0)
@@ -237,32 +243,59 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
         lit_area_m2_ += double{patches().areas_m2[patches().patch_of(side)]};
 }
 
-void LightGuess::interpolate(const std::vector<Rgb>& luminance_of_sides) {
-    const patches::VertexInterpolation interpolation(patches());
-    corners_.resize(luminance_of_sides.size());
-    std::vector<std::uint8_t> is_lit(luminance_of_sides.size());
+void LightGuess::interpolate(const std::vector<transport::LightSum>& luminance_of_sides) {
+    const std::size_t sides = luminance_of_sides.size();
+    std::vector<std::uint8_t> is_lit(sides);
     for (const std::uint32_t side : lit_sides_) is_lit[side] = 1;
-    for (const std::uint32_t first : {0u, static_cast<std::uint32_t>(patches().count())}) {
-        const std::vector<Rgb> at_vertices =
-            interpolation.at_vertices(std::span(luminance_of_sides).subspan(first, patches().count()));
-        for (std::uint32_t p = 0; p < patches().count(); ++p) {
-            if (is_lit[first + p] == 0) continue;
-            for (std::size_t c = 0; c < 3; ++c) {
-                const Rgb& value = at_vertices[patches().corners[p][c]];
-                for (std::size_t b = 0; b < kBands; ++b)
-                    corners_[first + p][c][b] = static_cast<float>(value[b]);
+    const patches::VertexInterpolation interpolation(patches());
+    // `stride`: from one side's corners to the next one's.
+    const auto set_corners = [&](const auto& luminance_of, CornerLuminances* corners, std::size_t stride) {
+        std::vector<Rgb> luminances;
+        for (const transport::LightSum& sum : luminance_of_sides) luminances.push_back(luminance_of(sum));
+        for (const std::uint32_t first : {0u, static_cast<std::uint32_t>(patches().count())}) {
+            const std::vector<Rgb> at_vertices =
+                interpolation.at_vertices(std::span<const Rgb>(luminances).subspan(first, patches().count()));
+            for (std::uint32_t p = 0; p < patches().count(); ++p) {
+                if (is_lit[first + p] == 0) continue;
+                for (std::size_t c = 0; c < 3; ++c) {
+                    const Rgb& value = at_vertices[patches().corners[p][c]];
+                    for (std::size_t b = 0; b < kBands; ++b)
+                        corners[(first + p) * stride][c][b] = static_cast<float>(value[b]);
+                }
             }
         }
-    }
+    };
+    corners_.resize(sides);
+    set_corners([](const transport::LightSum& sum) { return sum.whole; }, corners_.data(), 1);
+    const std::size_t channels = channels_ ? channels_->count() : 0;
+    corners_of_shares_.resize(sides * channels);
+    for (std::size_t c = 0; c < channels; ++c)
+        set_corners([c](const transport::LightSum& sum) { return sum.shares[c]; },
+                    corners_of_shares_.data() + c, channels);
 }
 
-Rgb LightGuess::luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const {
-    const CornerLuminances& corners = corners_[side];
+Rgb LightGuess::interpolated(const CornerLuminances& corners, const math::Barycentric& at) {
     Rgb luminance;
     for (std::size_t b = 0; b < kBands; ++b)
         luminance[b] =
             at.b0 * double{corners[0][b]} + at.b1 * double{corners[1][b]} + at.b2 * double{corners[2][b]};
     return luminance;
+}
+
+transport::LightSum LightGuess::at(std::uint32_t side, const math::Barycentric& at) const {
+    transport::LightSum sum(channels_);
+    sum.whole = interpolated(corners_[side], at);
+    for (std::size_t c = 0; c < sum.shares.size(); ++c)
+        sum.shares[c] = interpolated(corners_of_shares_[side * sum.shares.size() + c], at);
+    return sum;
+}
+
+transport::LightSum LightGuess::seen(const GuessedLight& light, std::size_t lane) const {
+    transport::LightSum sum(channels_);
+    const std::uint32_t side = light.sides[lane];
+    if (channels_ && side != patches::kNoSide) sum = at(side, light.barycentric_of(lane));
+    sum.whole = light.luminance_of(lane);
+    return sum;
 }
 
 void LightGuess::go_to_owners(patches::PatchHits& hits) const {

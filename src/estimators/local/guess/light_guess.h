@@ -10,7 +10,8 @@
 // have no guess, and no residual starts there. Path tracing finds the light that comes directly by them.
 //
 // Each lit side of a patch sends out some rays once. The sides that they meet are a sampled matrix of form
-// factors, and the guess is the solution of the equations of radiosity with it.
+// factors, and the guess is the solution of the equations of radiosity with it. Where light is divided into
+// channels, the same equations are solved for each.
 #pragma once
 
 #include <array>
@@ -24,6 +25,7 @@
 #include "math/random.h"
 #include "patches/regular_patches.h"
 #include "rays/ray_caster.h"
+#include "transport/light_parts.h"
 #include "transport/path_tracer.h"
 
 namespace stilb::estimators {
@@ -54,9 +56,10 @@ class LightGuess {
     /// The number of patches for a scene, about.
     static double patch_count(const Scene& scene);
 
+    /// `channels`: null for none.
     LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
                const transport::PathTracer& tracer, math::KeyOf<Stream> key,
-               const Monitor& monitor = Monitor::none());
+               const transport::Channels* channels, const Monitor& monitor);
 
     const patches::Patches& patches() const { return patches_.patches(); }
     /// The sides that light reaches and that reflect it, ascending.
@@ -72,10 +75,15 @@ class LightGuess {
     /// The places that several sides share: only their owners send out light there.
     const SharedPlaces& shared_places() const { return shared_; }
 
-    /// The guess at a point of a side: the diffuse part of the reflected light [cd/m2].
-    Rgb luminance_cd_m2(std::uint32_t side, const math::Barycentric& at) const;
-    /// The mean over a side.
-    Rgb mean_cd_m2(std::uint32_t side) const { return luminance_cd_m2(side, {1. / 3, 1. / 3, 1. / 3}); }
+    /// The channels of the light, or null.
+    const transport::Channels* channels() const { return channels_; }
+
+    // The diffuse part of the reflected light [cd/m2]: at a point of a side, its mean there, and along the ray
+    // of a lane.
+
+    transport::LightSum at(std::uint32_t side, const math::Barycentric& at) const;
+    transport::LightSum mean(std::uint32_t side) const { return at(side, {1. / 3, 1. / 3, 1. / 3}); }
+    transport::LightSum seen(const GuessedLight& light, std::size_t lane) const;
     double lit_area_m2() const { return lit_area_m2_; }
     /// The guess along rays, for lanes that are set; the packet as RayCaster::closest() takes and leaves it.
     void look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
@@ -90,7 +98,8 @@ class LightGuess {
     bool is_traced(ObjectId object, MaterialId material) const {
         return is_traced_object_[index_of(object)] != 0 || is_traced_material_[index_of(material)] != 0;
     }
-    void interpolate(const std::vector<Rgb>& luminance_of_sides);
+    void interpolate(const std::vector<transport::LightSum>& luminance_of_sides);
+    static Rgb interpolated(const CornerLuminances& corners, const math::Barycentric& at);
     /// Takes hits of shared places to the owners.
     void go_to_owners(patches::PatchHits& hits) const;
 
@@ -99,7 +108,9 @@ class LightGuess {
     patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
     SharedPlaces shared_;
     std::vector<std::uint32_t> lit_sides_;
-    std::vector<CornerLuminances> corners_;  ///< per side
+    std::vector<CornerLuminances> corners_;           ///< per side
+    const transport::Channels* channels_;
+    std::vector<CornerLuminances> corners_of_shares_;  ///< sides x channels
     double lit_area_m2_ = 0;
 };
 

@@ -68,15 +68,17 @@ double continuation_probability(const materials::SplitMaterial& material, const 
     return std::max(of_diffuse, all > 0 ? of_gloss * gloss / all : 0);
 }
 
-Rgb reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& surface, const Vec3& outgoing,
-                        const materials::SplitMaterial& material, const PartShares& shares,
-                        math::SampleStream& stream) {
+transport::LightSum reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& surface,
+                                        const Vec3& outgoing, const materials::SplitMaterial& material,
+                                        const PartShares& shares, math::SampleStream& stream,
+                                        const transport::Channels* channels) {
     const SharedReflection reflection(surface, outgoing, material, shares);
-    Rgb sum;
+    transport::LightSum sum(channels);
     if (const auto light = tracer.sample_light(surface, stream)) {
         const Vec3 in = reflection.frame().to_local(light->direction);
         const auto [brdf, pdf] = reflection.evaluate(in);
-        sum += light->normal_illuminance_lx * brdf * (in.z * transport::balance(light->pdf_per_sr, pdf));
+        sum.add(light->normal_illuminance_lx * brdf * (in.z * transport::balance(light->pdf_per_sr, pdf)),
+                light->light, 1);
     }
     const double survival = transport::survival_probability(
         Rgb::grey(1), material.diffuse_reflectance + material.gloss_reflectance());
@@ -85,10 +87,15 @@ Rgb reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& su
     if (!in || in->z <= 0) return sum;
     const auto [brdf, pdf] = reflection.evaluate(*in);
     if (!(pdf > 0)) return sum;
-    const Rgb luminance =
-        tracer.incoming_luminance({surface.lifted, reflection.frame().to_world(*in)},
-                                  {pdf, surface.position, surface.normal}, transport::kUnlimited, stream);
-    return sum + luminance * brdf * (in->z / (pdf * survival));
+    transport::LightSum incoming(channels);
+    incoming.add_sample(Rgb::grey(1), [&](auto* parts) {
+        return tracer.incoming_luminance({surface.lifted, reflection.frame().to_world(*in)},
+                                         {pdf, surface.position, surface.normal}, transport::kUnlimited,
+                                         stream, parts);
+    });
+    incoming.reflect();
+    sum.add(incoming *= brdf, Rgb::grey(in->z / (pdf * survival)));
+    return sum;
 }
 
 }  // namespace stilb::estimators

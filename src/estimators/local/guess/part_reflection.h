@@ -39,9 +39,10 @@ class PartShares {
 /// light for which rays are responsible.
 double continuation_probability(const materials::SplitMaterial& material, const PartShares& shares);
 
-/// One sample of the luminance towards `outgoing`, without emission.
-Rgb reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& surface, const Vec3& outgoing,
-                        const materials::SplitMaterial& material, const PartShares& shares,
-                        math::SampleStream& stream);
+/// One sample of the luminance towards `outgoing`, without emission. `channels`: null for none.
+transport::LightSum reflected_luminance(const transport::PathTracer& tracer, const rays::Hit& surface,
+                                        const Vec3& outgoing, const materials::SplitMaterial& material,
+                                        const PartShares& shares, math::SampleStream& stream,
+                                        const transport::Channels* channels);
 
 }  // namespace stilb::estimators

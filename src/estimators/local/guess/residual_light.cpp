@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/parallel.h"
 #include "estimators/limits.h"
@@ -33,29 +34,44 @@ constexpr std::uint64_t kPilots = 2;
 
 Rgb magnitude(const Rgb& value) { return {{std::abs(value[0]), std::abs(value[1]), std::abs(value[2])}}; }
 
-/// One of several arrivals, chosen in proportion to its light, which gets the light of all.
+/// The reflected light, regardless of its sign: shares of channels do not cancel each other.
+double magnitude_of(const transport::LightSum& light, const Rgb& reflectance) {
+    if (light.shares.empty()) return magnitude(light.whole * reflectance).luminance();
+    double sum = 0;
+    for (const Rgb& share : light.shares) sum += magnitude(share * reflectance).luminance();
+    return sum;
+}
+
+/// The direction of one of several arrivals, chosen in proportion to its light, with the light of all.
 class ChosenArrival {
   public:
     /// `u`: in [0, 1).
-    explicit ChosenArrival(double u) : u_(u) {}
+    ChosenArrival(double u, const transport::Channels* channels) : u_(u), light_(channels) {}
 
-    void add(const Arrival& arrival) {
-        const double light = arrival.illuminance_lx.luminance();
+    void add(const Vec3& direction, const transport::LightSum& arriving) {
+        const double light = arriving.whole.luminance();
         if (!(light > 0)) return;
         sum_ += light;
         const double probability = light / sum_;
         if (u_ < probability) {
-            chosen_ = {arrival.direction, arrival.illuminance_lx * (1 / light)};
+            direction_ = direction;
+            light_ = arriving;
+            light_ *= Rgb::grey(1 / light);
             u_ /= probability;
         } else {
             u_ = (u_ - probability) / (1 - probability);
         }
     }
-    Arrival arrival() const { return {chosen_.direction, chosen_.illuminance_lx * sum_}; }
+    const Vec3& direction() const { return direction_; }
+    transport::LightSum light() const {
+        transport::LightSum all = light_;
+        return all *= Rgb::grey(sum_);
+    }
 
   private:
     double u_, sum_ = 0;
-    Arrival chosen_{};
+    Vec3 direction_;
+    transport::LightSum light_;
 };
 
 }  // namespace
@@ -114,11 +130,11 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
         const auto u = stream.next_two();
         const Start start =
             start_at(side, math::sample_triangle(u[0], u[1]), 1, BoundedDirect::Part::bounded, stream);
-        const double missing = magnitude(start.missing_lx * material.diffuse_reflectance).luminance() / kPi;
-        const double guessed = start.guessed_cd_m2.luminance();
+        const double missing = magnitude_of(start.missing_lx, material.diffuse_reflectance) / kPi;
+        const double guessed = start.guessed_cd_m2.whole.luminance();
         square += missing * missing + kFloor * kFloor * guessed * guessed;
         if (!material.gloss) continue;
-        const double gloss = (start.arrival.illuminance_lx * material.gloss_reflectance()).luminance() / kPi;
+        const double gloss = magnitude_of(start.arriving_lx, material.gloss_reflectance()) / kPi;
         square += gloss * gloss * mean_concentration(*material.gloss);
     }
     return double{guess_.patches().areas_m2[guess_.patches().patch_of(side)]} *
@@ -128,14 +144,21 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
 auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
                              BoundedDirect::Part part, math::SampleStream& stream) const -> Start {
     const patches::Patches& patches = guess_.patches();
-    Start start{side_point(patches, caster_, side, at), guess_.luminance_cd_m2(side, at), {}, {}};
+    const transport::Channels* const channels = guess_.channels();
+    Start start{side_point(patches, caster_, side, at), guess_.at(side, at), transport::LightSum(channels), {},
+                transport::LightSum(channels)};
     const Frame frame = Frame::around(start.point.normal);
-    ChosenArrival chosen(stream.next());
-    const auto add = [&](const Arrival& arrival) {
-        start.missing_lx += arrival.illuminance_lx;
-        chosen.add(arrival);
+    ChosenArrival chosen(stream.next(), channels);
+    transport::LightSum& missing_lx = start.missing_lx;
+    const auto add = [&](const Vec3& direction, const transport::LightSum& illuminance_lx) {
+        missing_lx.add(illuminance_lx, Rgb::grey(1));
+        chosen.add(direction, illuminance_lx);
     };
-    direct_.sample(start.point, part, kResidualDirect, stream, add);
+    direct_.sample(start.point, part, kResidualDirect, stream, [&](const Arrival& arrival) {
+        transport::LightSum illuminance_lx(channels);
+        illuminance_lx.add(arrival.illuminance_lx, arrival.light);
+        add(arrival.direction, illuminance_lx);
+    });
     const std::array<double, 2> shift = stream.next_two();
     const auto rays = static_cast<std::uint32_t>(packets * kPacketWidth);
     const double per_ray = kPi / rays;
@@ -153,45 +176,57 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
         }
         guess_.look(packet, lanes, rays::Coherence::scattered, light);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            Rgb luminance = light.luminance_of(i);
-            if ((light.traced_lanes >> i & 1u) != 0) {
-                if (const auto hit = caster_.closest(start.point.lifted, directions[i]))
-                    luminance =
-                        tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited, stream);
+            transport::LightSum illuminance_lx(channels);
+            if ((light.traced_lanes >> i & 1u) == 0) {
+                illuminance_lx = guess_.seen(light, i);
+            } else if (const auto hit = caster_.closest(start.point.lifted, directions[i])) {
+                illuminance_lx.add_sample(Rgb::grey(1), [&](auto* parts) {
+                    return tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited,
+                                                            stream, parts);
+                });
             }
-            add({directions[i], luminance * per_ray});
+            add(directions[i], illuminance_lx *= Rgb::grey(per_ray));
         }
     }
-    start.arrival = chosen.arrival();
-    const Rgb guessed = start.guessed_cd_m2 * kPi;
+    missing_lx.reflect();
+    start.direction = chosen.direction();
+    start.arriving_lx = chosen.light();
+    start.arriving_lx.reflect();
+    const transport::LightSum& guessed = start.guessed_cd_m2;
     const Rgb& reflectance = guess_.material(side).diffuse_reflectance;
-    for (std::size_t b = 0; b < kBands; ++b) {
-        if (reflectance[b] > 0) start.missing_lx[b] -= guessed[b] / reflectance[b];
-    }
+    const auto subtract = [&](const Rgb& luminance_cd_m2, Rgb& from_lx) {
+        for (std::size_t b = 0; b < kBands; ++b) {
+            if (reflectance[b] > 0) from_lx[b] -= luminance_cd_m2[b] * kPi / reflectance[b];
+        }
+    };
+    subtract(guessed.whole, missing_lx.whole);
+    for (std::size_t c = 0; c < guessed.shares.size(); ++c) subtract(guessed.shares[c], missing_lx.shares[c]);
     return start;
 }
 
-Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at,
-                                 math::SampleStream& stream) const {
+transport::LightSum ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at,
+                                                 math::SampleStream& stream) const {
     // A walk, not a recursion: in white rooms it takes thousands of steps.
     std::vector<Step> steps;
-    Around next{side, at, {}};
+    Around next{side, at, transport::LightSum(guess_.channels())};
     while (next.side != patches::kNoSide) {
         const Start start = start_at(next.side, next.at, 1, BoundedDirect::Part::all, stream);
         const Rgb& reflectance = guess_.material(next.side).diffuse_reflectance;
         // The factor of a step is reflectance / survival: its square times survival must be less than 1.
         const double survival = transport::survival_probability(Rgb::grey(1), reflectance);
         steps.push_back({start.missing_lx, reflectance, survival});
-        next = stream.next() < survival ? look_around(start.point, stream) : Around{};
+        next = stream.next() < survival
+                   ? look_around(start.point, stream)
+                   : Around{patches::kNoSide, {}, transport::LightSum(guess_.channels())};
     }
-    Rgb missing_cd_m2 = next.missing_cd_m2;
+    transport::LightSum missing = std::move(next.missing_cd_m2);
     std::ranges::reverse(steps);
-    for (const Step& step : steps) {
-        Rgb missing_lx = step.missing_lx;
-        if (step.survival > 0) missing_lx += missing_cd_m2 * kPi * (1 / step.survival);
-        missing_cd_m2 = missing_lx * (step.reflectance * (1 / kPi));
+    for (Step& step : steps) {
+        missing.reflect();
+        if (step.survival > 0) step.missing_lx.add(missing *= Rgb::grey(kPi), Rgb::grey(1 / step.survival));
+        missing = std::move(step.missing_lx *= step.reflectance * (1 / kPi));
     }
-    return missing_cd_m2;
+    return missing;
 }
 
 auto ResidualLight::look_around(const SidePoint& point, math::SampleStream& stream) const -> Around {
@@ -205,13 +240,21 @@ auto ResidualLight::look_around(const SidePoint& point, math::SampleStream& stre
     GuessedLight light;
     guess_.look(packet, lanes, rays::Coherence::scattered, light);
     const std::uint32_t side = light.sides[0];
+    Around around{patches::kNoSide, {}, transport::LightSum(guess_.channels())};
     // Traced surfaces lack nothing.
-    if (side == patches::kNoSide || (light.traced_lanes & 1u) != 0) return {};
-    if (!guess_.material(side).gloss) return {side, light.barycentric_of(0), {}};
+    if (side == patches::kNoSide || (light.traced_lanes & 1u) != 0) return around;
+    if (!guess_.material(side).gloss) {
+        around.side = side;
+        around.at = light.barycentric_of(0);
+        return around;
+    }
     const auto hit = caster_.closest(point.lifted, direction);
-    if (!hit) return {};
-    const Rgb all = tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream);
-    return {patches::kNoSide, {}, all + light.luminance_of(0) * -1};
+    if (!hit) return around;
+    around.missing_cd_m2.add_sample(Rgb::grey(1), [&](auto* parts) {
+        return tracer_.luminance_without_direct(*hit, direction, transport::kUnlimited, stream, parts);
+    });
+    around.missing_cd_m2.add(guess_.seen(light, 0), Rgb::grey(-1));
+    return around;
 }
 
 std::vector<transport::LightVertex> ResidualLight::trace(math::KeyOf<Stream> key, std::uint64_t first,
@@ -258,47 +301,59 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const Start start = start_at(side, at, kResidualPackets, BoundedDirect::Part::bounded, stream);
     const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
     const materials::SplitMaterial& parts = guess_.material(side);
-    const auto& [position, lifted, normal] = start.point;
-    const Rgb missing = start.missing_lx * per_density, arriving = start.arrival.illuminance_lx * per_density;
-    const double favour = favours_[choice.index];
-    const Rgb diffuse = missing * parts.diffuse_reflectance, gloss = arriving * parts.gloss_reflectance();
+    transport::LightVertex diffuse;
+    diffuse.position = start.point.position;
+    diffuse.lifted = start.point.lifted;
     // The direction of the light that comes in does not matter for the diffuse part.
-    if (diffuse != Rgb{})
-        nodes.push_back(
-            {position, lifted, normal, normal, normal, &parts.diffuse, missing, 1, false, favour});
-    if (gloss != Rgb{})
-        nodes.push_back({position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving,
-                         1, false, favour, split_of_gloss(parts)});
+    diffuse.normal = diffuse.shading_normal = diffuse.incoming = start.point.normal;
+    diffuse.material = &parts.diffuse;
+    diffuse.flux_lm = start.missing_lx.whole * per_density;
+    diffuse.reflections = 1;
+    diffuse.shares = start.missing_lx.relative_shares();
+    transport::LightVertex gloss = diffuse;
+    gloss.incoming = start.direction;
+    gloss.material = parts.gloss ? &*parts.gloss : nullptr;
+    gloss.flux_lm = start.arriving_lx.whole * per_density;
+    gloss.split = split_of_gloss(parts);
+    gloss.shares = start.arriving_lx.relative_shares();
+    // Where shares have different signs, they are more than the whole.
+    const double reflected = magnitude(start.missing_lx.whole * parts.diffuse_reflectance).luminance();
+    if (diffuse.shares && reflected > 0)
+        diffuse.favour = magnitude_of(start.missing_lx, parts.diffuse_reflectance) / reflected;
     const std::size_t own = nodes.size();
-    branch_out(start, parts, missing, arriving, stream, nodes);
-    for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour = favour;
+    if (diffuse.flux_lm * parts.diffuse_reflectance != Rgb{}) nodes.push_back(diffuse);
+    if (gloss.flux_lm * parts.gloss_reflectance() != Rgb{}) nodes.push_back(gloss);
+    branch_out(parts, diffuse, gloss, stream, nodes);
+    const double favour = favours_[choice.index];
+    for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour *= favour;
 }
 
-/// Goes on from a start with some paths, each by one of the parts of the material.
-void ResidualLight::branch_out(const Start& start, const materials::SplitMaterial& parts,
-                               const Rgb& missing_lm, const Rgb& arriving_lm, math::SampleStream& stream,
+void ResidualLight::branch_out(const materials::SplitMaterial& parts, const transport::LightVertex& diffuse,
+                               const transport::LightVertex& gloss, math::SampleStream& stream,
                                std::vector<transport::LightVertex>& nodes) const {
-    const double diffuse = magnitude(missing_lm * parts.diffuse_reflectance).luminance();
-    const double sum = diffuse + (arriving_lm * parts.gloss_reflectance()).luminance();
+    const double of_diffuse =
+        diffuse.favour * magnitude(diffuse.flux_lm * parts.diffuse_reflectance).luminance();
+    const double sum = of_diffuse + (gloss.flux_lm * parts.gloss_reflectance()).luminance();
     if (!(sum > 0)) return;
-    const Vec3& normal = start.point.normal;
+    const Vec3& normal = diffuse.normal;
     const double first = stream.next();
     const std::array<double, 2> shift = stream.next_two();
     for (std::uint32_t i = 0; i < kBranches; ++i) {
-        const bool is_diffuse = (i + first) / kBranches < diffuse / sum;
-        const Rgb& incident = is_diffuse ? missing_lm : arriving_lm;
+        const bool is_diffuse = (i + first) / kBranches < of_diffuse / sum;
+        const transport::LightVertex& start = is_diffuse ? diffuse : gloss;
         const Rgb& reflectance = is_diffuse ? parts.diffuse_reflectance : parts.gloss_reflectance();
-        const double survival = transport::survival_probability(magnitude(incident), reflectance);
+        const double survival = transport::survival_probability(magnitude(start.flux_lm), reflectance);
         if (stream.next() >= survival) continue;
         const auto [u1, u2] = math::even_point(i, kBranches, shift);
-        const materials::ShadedSurface surface(is_diffuse ? parts.diffuse : *parts.gloss, normal, normal);
-        const auto scattered = surface.sample_outgoing(
-            surface.frame().to_local(is_diffuse ? normal : start.arrival.direction), u1, u2);
+        const materials::ShadedSurface surface(*start.material, normal, normal);
+        const auto scattered =
+            surface.sample_outgoing(surface.frame().to_local(start.incoming), u1, u2);
         if (!scattered) continue;
         const Vec3 direction = surface.frame().to_world(scattered->direction);
-        const double probability = survival * (is_diffuse ? diffuse : sum - diffuse) / sum;
-        walk(caster_.closest(start.point.lifted, direction), direction,
-             incident * scattered->weight * (1 / (kBranches * probability)), stream, nodes);
+        const double probability = survival * (is_diffuse ? of_diffuse : sum - of_diffuse) / sum;
+        transport::LightVertex from = start;
+        from.flux_lm = start.flux_lm * scattered->weight * (1 / (kBranches * probability));
+        walk(caster_.closest(start.lifted, direction), direction, std::move(from), stream, nodes);
     }
 }
 
@@ -306,28 +361,36 @@ void ResidualLight::trace_particle(math::SampleStream stream,
                                    std::vector<transport::LightVertex>& nodes) const {
     const auto particle = direct_.sample_particle(stream);
     if (!particle) return;
-    const std::size_t own = nodes.size();
-    walk(particle->hit, particle->direction, particle->flux_lm, stream, nodes);
-    for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour = particle->favour;
+    transport::LightVertex lamp;
+    lamp.flux_lm = particle->flux_lm;
+    lamp.favour = particle->favour;
+    lamp.light = particle->light;
+    walk(particle->hit, particle->direction, std::move(lamp), stream, nodes);
 }
 
-/// Vertices from the surface on that the flux meets.
-void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_lm,
+void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, transport::LightVertex from,
                          math::SampleStream& stream, std::vector<transport::LightVertex>& nodes) const {
+    transport::LightVertex vertex = std::move(from);
+    vertex.split = 1;
     while (hit && !guess_.is_traced(*hit)) {
         const materials::SplitMaterial& parts = guess_.material(hit->material);
         if (!parts.reflects()) return;
         const Material& material = scene_.material(hit->material);
-        add({hit->position, hit->lifted, hit->normal, hit->normal, -direction, &material, flux_lm, 1}, parts,
-            nodes);
+        vertex.position = hit->position;
+        vertex.lifted = hit->lifted;
+        vertex.normal = vertex.shading_normal = hit->normal;
+        vertex.incoming = -direction;
+        vertex.material = &material;
+        ++vertex.reflections;
+        add(vertex, parts, nodes);
         const double survival =
-            transport::survival_probability(magnitude(flux_lm), reflectance_bound(material));
+            transport::survival_probability(magnitude(vertex.flux_lm), reflectance_bound(material));
         if (stream.next() >= survival) return;
         const auto [u1, u2] = stream.next_two();
         const materials::ShadedSurface surface(material, hit->normal, hit->normal);
         const auto scattered = surface.sample_outgoing(surface.frame().to_local(-direction), u1, u2);
         if (!scattered) return;
-        flux_lm *= scattered->weight * (1 / survival);
+        vertex.flux_lm *= scattered->weight * (1 / survival);
         direction = surface.frame().to_world(scattered->direction);
         hit = caster_.closest(hit->lifted, direction);
     }

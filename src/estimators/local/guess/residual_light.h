@@ -16,6 +16,7 @@
 
 #include "estimators/local/guess/light_guess.h"
 #include "math/sampling.h"
+#include "transport/light_parts.h"
 #include "transport/light_path.h"
 #include "transport/path_tracer.h"
 
@@ -39,7 +40,8 @@ class ResidualLight {
 
     /// An estimate of the luminance that the guess lacks at a point of a side whose material is diffuse, all
     /// the light of point lights included [cd/m2].
-    Rgb missing_cd_m2(std::uint32_t side, const math::Barycentric& at, math::SampleStream& stream) const;
+    transport::LightSum missing_cd_m2(std::uint32_t side, const math::Barycentric& at,
+                                      math::SampleStream& stream) const;
 
     /// The lit area from which it comes: that of the guess, and of surfaces that have no guess.
     double area_m2() const { return area_m2_; }
@@ -48,34 +50,40 @@ class ResidualLight {
     /// Where and how paths start.
     struct Start {
         SidePoint point;
-        Rgb guessed_cd_m2;
-        Rgb missing_lx;   ///< one sample of r, as the illuminance that the diffuse part would reflect to it
-        Arrival arrival;  ///< all the light that the gloss reflects, as if it came from one direction
+        transport::LightSum guessed_cd_m2;
+        /// One sample of r, as the illuminance that the diffuse part would reflect to it.
+        transport::LightSum missing_lx;
+        /// All the light that the gloss reflects, as if it came from one direction.
+        Vec3 direction;
+        transport::LightSum arriving_lx;
     };
     Start start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
                    BoundedDirect::Part part, math::SampleStream& stream) const;
     /// One step of a walk: r, as in Start, and what of the rest of the walk comes back.
     struct Step {
-        Rgb missing_lx, reflectance;
+        transport::LightSum missing_lx;
+        Rgb reflectance;
         double survival = 0;
     };
     /// What a ray from a point meets: a side where the walk goes on, or a surface of which a sample of what
     /// the guess lacks there is known.
     struct Around {
-        std::uint32_t side = patches::kNoSide;
+        std::uint32_t side;
         math::Barycentric at;
-        Rgb missing_cd_m2;
+        transport::LightSum missing_cd_m2;
     };
     Around look_around(const SidePoint& point, math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
-    /// `missing_lm`, `arriving_lm`: flux that the parts of the material reflect.
-    void branch_out(const Start& start, const materials::SplitMaterial& parts, const Rgb& missing_lm,
-                    const Rgb& arriving_lm, math::SampleStream& stream,
+    /// Goes on from a start with some paths, each by one of the parts of the material. `diffuse`, `gloss`: the
+    /// start as their vertices.
+    void branch_out(const materials::SplitMaterial& parts, const transport::LightVertex& diffuse,
+                    const transport::LightVertex& gloss, math::SampleStream& stream,
                     std::vector<transport::LightVertex>& nodes) const;
-    void walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_lm, math::SampleStream& stream,
-              std::vector<transport::LightVertex>& nodes) const;
+    /// Adds vertices from the surface on that the flux of the vertex `from` meets.
+    void walk(std::optional<rays::Hit> hit, Vec3 direction, transport::LightVertex from,
+              math::SampleStream& stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_light_paths_only(math::RandomKey key, std::uint64_t first, std::uint64_t end,
                                 std::vector<transport::LightVertex>& nodes) const;
     /// Adds the vertices of both parts of a material.
