@@ -44,10 +44,10 @@ Measure picture_with(const estimators::Estimator& estimator, const std::array<in
             const auto pass = estimator.start({key.derived(round), index});
             std::size_t first = 0;
             for (const estimators::PixelBlock& block : estimators::blocks_of(resolution)) {
-                std::vector<Rgb> samples(static_cast<std::size_t>(block.width * block.height));
+                estimators::Tally samples(block.pixels());
                 pass->sample(block, samples);
-                pixels.resize(std::max(pixels.size(), first + samples.size()));
-                for (const Rgb& sample : samples) {
+                pixels.resize(std::max(pixels.size(), first + samples.sum.size()));
+                for (const Rgb& sample : samples.sum) {
                     pixels[first++] += sample.luminance() / static_cast<double>(passes);
                 }
             }

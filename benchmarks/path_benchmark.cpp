@@ -154,10 +154,10 @@ void compare(const Scene& scene) {
     for (int repetition = 0; repetition < kRepetitions; ++repetition) {
         double start = processor_s();
         const auto pass = estimator->start({math::RandomKey{1}, static_cast<std::uint64_t>(repetition)});
-        std::vector<Rgb> pixels(std::size_t{estimators::kBlockSize} * estimators::kBlockSize);
-        for (const estimators::PixelBlock& block : blocks)
-            pass->sample(block,
-                         std::span(pixels).first(static_cast<std::size_t>(block.width * block.height)));
+        for (const estimators::PixelBlock& block : blocks) {
+            estimators::Tally pixels(block.pixels());
+            pass->sample(block, pixels);
+        }
         best_path_s = std::min(best_path_s, processor_s() - start);
         start = processor_s();
         trace(prepared.camera, rays::Coherence::coherent, caster);

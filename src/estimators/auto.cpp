@@ -238,12 +238,14 @@ Pilot run_picture_pilot(const Estimator& method, const std::array<int, 2>& resol
     std::vector<std::array<std::vector<double>, kPilotReplicates>> luminances(blocks.size());
     std::atomic<std::uint64_t> continued = 0;
     parallel_for(blocks.size(), [&](std::size_t b) {
-        std::vector<Rgb> samples(static_cast<std::size_t>(blocks[b].width * blocks[b].height));
         for (std::size_t i = 0; i < passes.size(); ++i) {
+            Tally samples(blocks[b].pixels());
+            passes[i]->sample(blocks[b], samples);
+            continued += samples.continued;
             std::vector<double>& sums = luminances[b][i / kPilotPasses];
-            sums.resize(samples.size());
-            continued += passes[i]->sample(blocks[b], samples).continued;
-            for (std::size_t j = 0; j < samples.size(); ++j) sums[j] += samples[j].luminance() / kPilotPasses;
+            sums.resize(samples.sum.size());
+            for (std::size_t j = 0; j < sums.size(); ++j)
+                sums[j] += samples.sum[j].luminance() / kPilotPasses;
         }
     });
     Pilot pilot{{}, {}, cost, 0, {}};

@@ -71,6 +71,7 @@ PictureTracing::PictureTracing(const Problem& problem, const transport::LightSam
       camera(problem.camera.value()),
       view(camera),
       max_reflections(problem.max_reflections),
+      channels(problem.channels),
       lights(all_lights),
       tracer(scene, caster, lights) {}
 
@@ -90,23 +91,32 @@ CameraPaths PictureTracing::start_paths(std::span<const Pixel> pixels, const Pas
     std::vector<std::optional<rays::Hit>> hits(rays.size());
     caster.closest(rays, rays::Coherence::coherent, hits);
     CameraPaths started;
+    if (channels) started.parts.resize(pixels.size());
     for (std::size_t i = 0; i < rays.size(); ++i) {
+        transport::LightParts* const parts = channels ? &started.parts[pixel_of_ray[i]] : nullptr;
         if (!hits[i]) {
-            if (lights.has_light_from_outside())
-                started.outside.push_back({pixel_of_ray[i], lights.outside_luminance(rays[i].direction)});
+            if (!lights.has_light_from_outside()) continue;
+            auto& [pixel, luminance_cd_m2] = started.outside.emplace_back(pixel_of_ray[i], Rgb{});
+            transport::add_part(lights.outside_luminance(rays[i].direction), lights.light_from_outside(), 0,
+                                luminance_cd_m2, parts);
             continue;
         }
         transport::Path path{*hits[i], -rays[i].direction, streams[i], max_reflections};
-        path.luminance_cd_m2 = lights.emitted_luminance(path.hit, path.outgoing);
+        path.parts = parts;
+        path.luminance_cd_m2 = lights.emitted_luminance(path.hit, path.outgoing, parts);
         started.paths.push_back(path);
         started.pixels.push_back(pixel_of_ray[i]);
     }
     return started;
 }
 
-std::uint64_t PictureTracing::trace(std::span<const Pixel> pixels, const Pass& pass,
-                                    const transport::PathTracer& path_tracer,
-                                    std::span<Rgb> luminances_cd_m2) const {
+void PictureTracing::trace(std::span<const Pixel> pixels, const Pass& pass,
+                           const transport::PathTracer& path_tracer, Tally& sums) const {
+    if (channels) {  // packets of paths keep no parts
+        CameraPaths started = start_paths(pixels, pass);
+        path_tracer.trace(started.paths, rays::Coherence::coherent);
+        return started.add_to(sums, channels);
+    }
     const std::size_t count = (pixels.size() + kPacketWidth - 1) / kPacketWidth;
     std::vector<transport::PathPacket> packets(count);
     std::vector<LaneMask> lanes(count);
@@ -115,30 +125,16 @@ std::uint64_t PictureTracing::trace(std::span<const Pixel> pixels, const Pass& p
         const auto part = pixels.subspan(first, std::min<std::size_t>(kPacketWidth, pixels.size() - first));
         start_packet(*this, part, first, pass, packets[p], lanes[p]);
     }
-    std::ranges::fill(luminances_cd_m2, Rgb{});
+    std::vector<Rgb> luminances_cd_m2(pixels.size());
     path_tracer.trace(packets, lanes, kPacketSobolDimensions, rays::Coherence::coherent, luminances_cd_m2);
-    std::uint64_t invalid = 0;
-    for (Rgb& luminance : luminances_cd_m2) {
-        if (luminance.is_finite()) continue;
-        luminance = {};
-        ++invalid;
-    }
-    return invalid;
+    for (std::size_t i = 0; i < pixels.size(); ++i) sums.add(i, luminances_cd_m2[i]);
 }
 
-std::uint64_t CameraPaths::write_to(std::span<Rgb> luminances_cd_m2) const {
-    std::ranges::fill(luminances_cd_m2, Rgb{});
-    for (const auto& [pixel, luminance_cd_m2] : outside) luminances_cd_m2[pixel] = luminance_cd_m2;
-    std::uint64_t invalid = 0;
-    for (std::size_t i = 0; i < paths.size(); ++i) {
-        const Rgb& luminance = paths[i].luminance_cd_m2;
-        if (luminance.is_finite()) {
-            luminances_cd_m2[pixels[i]] = luminance;
-        } else {
-            ++invalid;
-        }
-    }
-    return invalid;
+void CameraPaths::add_to(Tally& sums, const transport::Channels* channels) const {
+    for (const auto& [pixel, luminance_cd_m2] : outside) sums.add(pixel, luminance_cd_m2);
+    for (std::size_t i = 0; i < paths.size(); ++i) sums.add(pixels[i], paths[i].luminance_cd_m2);
+    for (std::size_t pixel = 0; pixel < parts.size(); ++pixel)
+        channels->add(parts[pixel], Rgb::grey(1), 0, pixel, sums.parts);
 }
 
 std::vector<Pixel> pixels_of(const PixelBlock& block) {

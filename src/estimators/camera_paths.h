@@ -23,11 +23,12 @@ struct CameraPaths {
         Rgb luminance_cd_m2;
     };
     std::vector<Outside> outside;
+    /// What the paths and the light from outside consist of, by requested pixels; empty without channels.
+    std::vector<transport::LightParts> parts;
 
-    /// Writes the luminances of the paths and the light from outside, and 0 for the other elements of
-    /// `luminances_cd_m2`, one for each requested pixel. Returns the number of non-finite values: these are
-    /// set to 0.
-    std::uint64_t write_to(std::span<Rgb> luminances_cd_m2) const;
+    /// Adds the luminances of the paths and the light from outside; readings are the requested pixels.
+    /// `channels`: as PictureTracing's.
+    void add_to(Tally& sums, const transport::Channels* channels) const;
 };
 
 /// Keeps references to the scene, its ray caster and the lights. Immutable.
@@ -37,16 +38,16 @@ struct PictureTracing {
 
     /// One path for each pixel with a first hit, along a ray drawn by the camera's filter.
     CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;
-    /// Traces such paths to their ends; writes one luminance for each pixel. Returns the number of non-finite
-    /// values: these are set to 0.
-    std::uint64_t trace(std::span<const Pixel> pixels, const Pass& pass,
-                        const transport::PathTracer& path_tracer, std::span<Rgb> luminances_cd_m2) const;
+    /// Traces such paths to their ends, and adds one luminance for each pixel.
+    void trace(std::span<const Pixel> pixels, const Pass& pass, const transport::PathTracer& path_tracer,
+               Tally& sums) const;
 
     const Scene& scene;
     const rays::RayCaster& caster;
     Camera camera;
     sensors::CameraView view;
     int max_reflections;
+    const transport::Channels* channels;  ///< null where there are none
     const transport::LightSampler& lights;
     transport::PathTracer tracer;
 };

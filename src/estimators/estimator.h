@@ -58,6 +58,8 @@ struct Problem {
 /// A block of the picture, the unit of parallel work.
 struct PixelBlock {
     int left = 0, top = 0, width = 0, height = 0;
+
+    std::size_t pixels() const { return static_cast<std::size_t>(width) * static_cast<std::size_t>(height); }
 };
 
 /// Edge of the largest blocks.
@@ -84,13 +86,9 @@ class PicturePass {
   public:
     virtual ~PicturePass() = default;
 
-    struct Sampled {
-        std::uint64_t invalid = 0;    ///< non-finite samples; they are set to 0
-        std::uint64_t continued = 0;  ///< as in Tally
-    };
-    /// Writes one unbiased sample of every pixel's luminance [cd/m2] of a block, row by row. Blocks may run
-    /// in parallel.
-    virtual Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const = 0;
+    /// Adds one unbiased sample of the luminance [cd/m2] of every pixel of a block: its pixels, row by row,
+    /// are the readings of the sums. Blocks may run in parallel.
+    virtual void sample(const PixelBlock& block, Tally& sums) const = 0;
 };
 
 class Estimator {

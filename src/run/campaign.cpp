@@ -72,8 +72,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
     }
     if (is_part() && !plan().is_complete())
         throw std::invalid_argument("the plan of a part of a run is not complete");
-    if (state_.tallies.empty())
-        state_.tallies.assign(plan().units(), estimators::Tally(readings, packets()));
+    if (state_.tallies.empty()) state_.tallies.assign(plan().units(), estimators::Tally(readings, packets()));
     require_own_sums(readings);
     samples_ = std::numeric_limits<std::uint64_t>::max();
     for (std::size_t strand = 0; strand < plan().units(); ++strand) {

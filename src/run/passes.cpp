@@ -68,7 +68,7 @@ void Passes::advance(std::uint64_t) {
         sample(tasks[i].block, tasks[i].pass);
     });
     sums_.add(pixels_);
-    for (const auto& [block, pass] : tasks) samples_ += static_cast<double>(block.width) * block.height;
+    for (const auto& [block, pass] : tasks) samples_ += static_cast<double>(block.pixels());
     require_mostly_finite(invalid_, samples_);
 }
 
@@ -83,15 +83,15 @@ std::vector<PicturePaces::Part> Passes::parts_of_pass() const {
 }
 
 void Passes::sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
-    std::array<Rgb, std::size_t{estimators::kBlockSize} * estimators::kBlockSize> samples;
-    const std::size_t count = static_cast<std::size_t>(block.width) * static_cast<std::size_t>(block.height);
-    invalid_ += pass.sample(block, {samples.data(), count}).invalid;
-    for (std::size_t i = 0; i < count; ++i) {
+    estimators::Tally samples(block.pixels());
+    pass.sample(block, samples);
+    invalid_ += samples.invalid;
+    for (std::size_t i = 0; i < samples.sum.size(); ++i) {
         const std::size_t x =
             static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
         const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
         for (std::size_t b = 0; b < kBands; ++b) {
-            pixels_[y * width_ + x][b] = static_cast<float>(samples[i][b]);
+            pixels_[y * width_ + x][b] = static_cast<float>(samples.sum[i][b]);
         }
     }
 }

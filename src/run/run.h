@@ -71,8 +71,8 @@ RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const Run
                   RunState* state = nullptr);
 
 /// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.
-/// Throws as measure() does, and std::invalid_argument where the plan is not complete. All parts need the same
-/// options.
+/// Throws as measure() does, and std::invalid_argument where the plan is not complete. All parts need the
+/// same options.
 void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   RunPart part, RunState& state, ProgressSink* progress = nullptr,
                   const std::atomic<bool>* interrupt = nullptr);

@@ -41,8 +41,7 @@ struct Channels {
 
     std::size_t count() const { return groups.count() * orders; }
     std::size_t of(std::uint32_t light, int reflections) const {
-        return groups.of_light[light] * orders +
-               std::min(static_cast<std::size_t>(reflections), orders - 1);
+        return groups.of_light[light] * orders + std::min(static_cast<std::size_t>(reflections), orders - 1);
     }
     /// Where the light of a channel is after so many more reflections.
     std::size_t after(std::size_t channel, int reflections) const {

@@ -27,8 +27,8 @@ struct LightVertex {
     double favour = 1;  ///< as EmittedParticle's: the vertex counts so much more where some are selected
     double split = 1;   ///< the k of other connections over that of its own (weights.h)
     std::uint32_t light = 0;  ///< that the particle left, of Scene::lights
-    /// The shares of the channels in the flux, band by band, as they are after one reflection. Null: all of it
-    /// is of `light`.
+    /// The shares of the channels in the flux, band by band, as they are after one reflection. Null: all of
+    /// it is of `light`.
     std::shared_ptr<const std::vector<Rgb>> shares = nullptr;
 };
 

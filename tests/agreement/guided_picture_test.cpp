@@ -56,10 +56,10 @@ std::vector<std::vector<double>> means_of(const estimators::Estimator& method, m
         for (std::uint64_t pass = 0; pass < passes; ++pass) {
             const auto started = method.start({key.derived(r), pass, r});
             for (std::size_t c = 0; c < cells.size(); ++c) {
-                std::array<Rgb, kCell * kCell> pixels;
+                estimators::Tally pixels(cells[c].pixels());
                 started->sample(cells[c], pixels);
-                for (const Rgb& pixel : pixels)
-                    means[c][r] += pixel.luminance() / static_cast<double>(passes * pixels.size());
+                for (const Rgb& pixel : pixels.sum)
+                    means[c][r] += pixel.luminance() / static_cast<double>(passes * pixels.sum.size());
             }
         }
     });

@@ -178,7 +178,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/run/level_of_detail.cpp", "kNoLimit_m kFootprint_rad"},
         {"src/run/measure.cpp", "kConfidence much"},
         {"src/run/passes.h", "kBiasesOfMostPixels"},
-        {"src/run/plan.cpp", "kFewReplicates"},
+        {"src/run/plan.cpp", "kFewReplicates kMostUnits"},
         {"src/run/pictures/picture_comparison.cpp", "kPixels kReplicates kPathsOfAReplicate"},
         {"src/run/pictures/picture_paces.cpp", "kPixelReserve kEdge packets"},
         {"src/run/possible_light.cpp", "kParticles kMostEstimates kUnsure"},

@@ -48,17 +48,16 @@ class MadeUpPicture final : public estimators::Estimator {
       public:
         MadeUpPass(const MadeUpPicture& picture, const Pass& pass) : picture_(picture), pass_(pass) {}
 
-        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
+        void sample(const PixelBlock& block, estimators::Tally& sums) const override {
             const std::lock_guard lock(picture_.mutex_);
-            for (std::size_t i = 0; i < pixels.size(); ++i) {
+            for (std::size_t i = 0; i < block.pixels(); ++i) {
                 const int x = block.left + static_cast<int>(i) % block.width;
                 const int y = block.top + static_cast<int>(i) / block.width;
                 picture_.numbers_[{pass_.replicate, x, y}].push_back(pass_.index);
                 const auto pixel = static_cast<std::uint64_t>(1000 * y + x);
                 const double u = math::SampleStream(pass_.key.key.derived(pixel), pass_.index, 0).next();
-                pixels[i] = Rgb::grey(picture_.luminance_(pass_, x, u));
+                sums.add(i, Rgb::grey(picture_.luminance_(pass_, x, u)));
             }
-            return {};
         }
 
       private:

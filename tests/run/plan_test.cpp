@@ -164,6 +164,101 @@ TEST(RunState, RefusesWhatDoesNotFit) {
         EXPECT_THROW(state_of(bytes.substr(0, size)), InputError) << size;
 }
 
+TEST(RunState, StaysWhereARunIsRefused) {
+    const Scene scene = lit_room();
+    const Sensor sensor = floor_grid(2), other = floor_grid(3);
+    RunState state;
+    RunOptions options = options_of("light-paths", 1 << 15);
+    measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state);
+    const std::string before = bytes_of(state);
+    EXPECT_THROW(measure(scene, {&other, 1}, options, nullptr, nullptr, &state), std::invalid_argument);
+    EXPECT_EQ(bytes_of(state), before);
+    options.threads = -1;
+    EXPECT_THROW(measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state), InputError);
+    EXPECT_EQ(bytes_of(state), before);
+    // The sums of the last strand alone are of other readings.
+    options.threads = 0;
+    state.tallies.back().sum.pop_back();
+    EXPECT_THROW(measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state), std::invalid_argument);
+}
+
+/// A run that was interrupted in its first batch has begun some replicates: a result needs 8 of them, and
+/// takes these alone.
+TEST(RunState, MayLackReplicates) {
+    const Scene scene = lit_room();
+    const Sensor sensor = floor_grid(2);
+    const RunOptions options = options_of("path", 1 << 12);
+    RunState whole;
+    const RunResult in_one_go = measure(scene, {&sensor, 1}, options, nullptr, nullptr, &whole);
+    for (const std::size_t begun : {std::size_t{3}, std::size_t{7}, std::size_t{8}, std::size_t{31}}) {
+        RunState state = whole;
+        for (std::size_t r = begun; r < state.tallies.size(); ++r)
+            state.tallies[r] = estimators::Tally(4, whole.tallies[r].taken.size());
+        std::atomic<bool> interrupt = true;
+        if (begun < 8) {
+            EXPECT_THROW(measure(scene, {&sensor, 1}, options, nullptr, &interrupt, &state), Cancelled);
+        } else {
+            const RunResult some = measure(scene, {&sensor, 1}, options, nullptr, &interrupt, &state);
+            EXPECT_EQ(some.replicates, static_cast<int>(begun));
+            for (const Reading& reading : some.sensors.at(0).readings) {
+                EXPECT_GT(reading.estimate.value, 0);
+                EXPECT_LT(reading.estimate.standard_error, reading.estimate.value);
+            }
+        }
+        EXPECT_EQ(numbers_of(measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state)),
+                  numbers_of(in_one_go));
+    }
+}
+
+/// Parts that ended at different numbers of paths: each strand is continued from where it is.
+TEST(RunState, OfPartsThatEndElsewhereGoesOn) {
+    const Scene scene = lit_room();
+    const Sensor sensor = floor_grid(2);
+    RunOptions more = options_of("light-paths", 1 << 16), fewer = options_of("light-paths", 1 << 15);
+    RunState whole;
+    const RunResult in_one_go = measure(scene, {&sensor, 1}, more, nullptr, nullptr, &whole);
+    RunState first{whole.plan, {}}, second{whole.plan, {}};
+    measure_part(scene, {&sensor, 1}, fewer, {0, 2}, first);
+    measure_part(scene, {&sensor, 1}, more, {1, 2}, second);
+    first.merge(second);
+    EXPECT_EQ(numbers_of(measure(scene, {&sensor, 1}, more, nullptr, nullptr, &first)),
+              numbers_of(in_one_go));
+    EXPECT_THROW(measure_part(scene, {&sensor, 1}, more, {2, 2}, second), InputError);
+}
+
+TEST(RunState, OfDamagedBytesIsRefused) {
+    constexpr std::size_t most = std::size_t{1} << 20;  // kMostUnits
+    const auto is_read = [](const RunPlan& plan) {
+        try {
+            state_of(bytes_of({plan, {}}));
+            return true;
+        } catch (const InputError&) {
+            return false;
+        }
+    };
+    RunPlan plan;
+    plan.technique = "path";
+    for (const std::size_t count : {most - 1, most, most + 1, std::size_t{0}}) {
+        const bool is_allowed = count > 0 && count <= most;
+        plan.replicates = count, plan.strands = 1;
+        EXPECT_EQ(is_read(plan), is_allowed) << count;
+        plan.replicates = 1, plan.strands = count;
+        EXPECT_EQ(is_read(plan), is_allowed) << count;
+    }
+    plan.replicates = 2, plan.strands = most / 2;
+    EXPECT_TRUE(is_read(plan));
+    plan.strands = most / 2 + 1;
+    EXPECT_FALSE(is_read(plan));
+    plan.strands = 1;
+    plan.paces.assign(2, {{4, 1, 2}});
+    EXPECT_TRUE(is_read(plan));
+    plan.paces[1] = {{4, 0, 2}};
+    EXPECT_FALSE(is_read(plan)) << "a pace that takes no samples";
+    plan.paces.clear();
+    plan.unit = 0;
+    EXPECT_FALSE(is_read(plan));
+}
+
 TEST(RunState, OfAGridIsCompleteFromThePacesOn) {
     const Scene scene = lit_room();
     const Sensor sensor = floor_grid(8);

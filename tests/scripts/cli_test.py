@@ -347,6 +347,7 @@ class HelpTest(CommandLineTest):
                 self.assertNotIn(flag, text)
                 self.assertRegex(topic.stdout, rf"{flag} [A-Z]+ ")
         self.assertIn("--first-shot", run("solve", "--help").stdout)
+        self.assertIn('Did you mean "patches"?', run("help", "patche").stderr)
 
     def test_help_is_a_command_too(self):
         for command in ([], ["measure"], ["help"]):

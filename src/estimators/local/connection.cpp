@@ -81,7 +81,8 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
 }
 
 /// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
-/// `add_shares(reading, received, response, reflections)`: adds what the channels get of what a receiver gets.
+/// `add_shares(reading, received, response, reflections)`: adds what the channels get of what a receiver
+/// gets.
 template <typename AddShares>
 void flush(const PointTile& tile, TileSums& sums, Tally& readings, const AddShares& add_shares) {
     for (std::size_t i = 0; i < tile.receivers.size(); ++i) {

@@ -65,10 +65,11 @@ void LightPathReception::receive(const SubPointPacket& packet, const NearNodePoo
     const double u = math::SampleStream(packet.key(pass, PassStream::selection), pass.index).next();
     std::vector<transport::LightVertex> nodes = pool.select(near, near.size() / kPathsPerSelected + 1, u);
     for (transport::LightVertex& vertex : nodes) vertex.flux_lm *= 1.0 / static_cast<double>(paths_);
-    Connections(transport_.caster, tiles, transport_.monitor).collect(nodes, sums);
+    const transport::Channels* const channels = sub_points_.tracing().channels;
+    Connections(transport_.caster, tiles, transport_.monitor, channels).collect(nodes, sums);
     if (!transport_.gathers) return;
     const std::vector<SplitPlan> plans(packet.receivers.size(), {0, 1});
-    Gather(transport_.caster, transport_.tracer, tiles, plans)
+    Gather(transport_.caster, transport_.tracer, tiles, plans, Monitor::none(), channels)
         .collect({{packet.key(pass, PassStream::gather)}, pass.index, 1}, sums);
 }
 

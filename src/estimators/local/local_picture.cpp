@@ -1,7 +1,5 @@
 #include "estimators/local/local_picture.h"
 
-#include <algorithm>
-
 #include "estimators/local/light_path_reception.h"
 
 namespace stilb::estimators {
@@ -25,12 +23,9 @@ class LightPathPicture final : public LocalPicture {
         LightPathPass(const LightPathPicture& picture, const Pass& pass)
             : picture_(picture), pass_(pass), pool_(picture.reception_.trace(pass)) {}
 
-        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-            Tally sums(pixels.size());
+        void sample(const PixelBlock& block, Tally& sums) const override {
             const std::vector<SubPointPacket> packets = picture_.sub_points_.of_block(block, pass_, sums);
             picture_.reception_.receive(packets, {block.left, block.top}, pool_, pass_, sums);
-            std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
-            return {sums.invalid};
         }
 
       private:

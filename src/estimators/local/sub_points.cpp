@@ -94,16 +94,27 @@ SubPointPacket SubPoints::of_packet(const PixelBlock& block, int left, int top, 
         sums.add(reading_of(pixel), add(started.paths[i], reading_of(pixel), packet.receivers));
         packet.pixels.resize(packet.receivers.size(), pixels[pixel]);
     }
+    for (std::size_t pixel = 0; pixel < started.parts.size(); ++pixel)
+        tracing_.channels->add(started.parts[pixel], Rgb::grey(1), 0, reading_of(pixel), sums.parts);
     return packet;
 }
 
 void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, Tally& sums) const {
     const std::span<const transport::Receiver> receivers = packet.receivers;
-    transport::DirectLight::TileLight light{};
+    std::array<transport::LightParts, kPacketWidth> parts;
+    const auto add = [&](const transport::DirectLight::TileLight& light, double weight) {
+        for (std::size_t i = 0; i < receivers.size(); ++i) {
+            sums.add(receivers[i].reading(), light[i] * weight);
+            if (!tracing_.channels) continue;
+            tracing_.channels->add(parts[i], Rgb::grey(weight), receivers[i].reflections(),
+                                   receivers[i].reading(), sums.parts);
+            parts[i].clear();
+        }
+    };
+    transport::DirectLight::TileLight light{{}, tracing_.channels ? &parts : nullptr}, sampled = light;
     const transport::DirectLight::Remainder remainder = transport_.direct.add_certain(receivers, light);
-    for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), light[i]);
+    add(light, 1);
     if (remainder.is_empty()) return;
-    transport::DirectLight::TileLight sampled{};
     const auto width = static_cast<std::uint64_t>(tracing_.camera.resolution[0]);
     for (std::uint64_t sample = 0; sample < direct_samples_; ++sample) {
         std::vector<math::SampleStream> streams;
@@ -114,8 +125,7 @@ void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, Tally
         }
         transport_.direct.add_sample(receivers, remainder, streams, sampled);
     }
-    const double weight = 1 / static_cast<double>(direct_samples_);
-    for (std::size_t i = 0; i < receivers.size(); ++i) sums.add(receivers[i].reading(), sampled[i] * weight);
+    add(sampled, 1 / static_cast<double>(direct_samples_));
 }
 
 Rgb SubPoints::add(transport::Path& path, std::uint32_t reading,

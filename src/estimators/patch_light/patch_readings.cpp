@@ -242,7 +242,7 @@ PatchPass::PatchPass(const PictureTracing& tracing, const PatchTransport& transp
     backs_ = transport.interpolation.at_vertices(all.subspan(transport.patches.count()));
 }
 
-auto PatchPass::sample(const PixelBlock& block, std::span<Rgb> pixels) const -> Sampled {
+void PatchPass::sample(const PixelBlock& block, Tally& sums) const {
     CameraPaths started = tracing_.start_paths(pixels_of(block), pass_);
     std::vector<transport::Path>& paths = started.paths;
     std::vector<std::size_t> standing;
@@ -257,7 +257,7 @@ auto PatchPass::sample(const PixelBlock& block, std::span<Rgb> pixels) const -> 
         transport::Path& path = paths[standing[i]];
         if (locations[i]) path.luminance_cd_m2 += path.throughput * reflected(path, *locations[i]);
     }
-    return {started.write_to(pixels)};
+    started.add_to(sums, nullptr);
 }
 
 Rgb PatchPass::reflected(const transport::Path& path, const PatchLocation& seen) const {

@@ -173,7 +173,7 @@ class PatchPass final : public PicturePass {
     PatchPass(const PictureTracing& tracing, const PatchTransport& transport, const Pass& pass,
               const std::vector<FloatRgb>& sides_cd_m2);
 
-    Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override;
+    void sample(const PixelBlock& block, Tally& sums) const override;
 
   private:
     Rgb reflected(const transport::Path& path, const PatchLocation& seen) const;

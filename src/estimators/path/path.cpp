@@ -100,8 +100,8 @@ class PathPass final : public PicturePass {
     PathPass(const PictureTracing& tracing, const transport::PathTracer& tracer, const Pass& pass)
         : tracing_(tracing), tracer_(tracer), pass_(pass) {}
 
-    Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-        return {tracing_.trace(pixels_of(block), pass_, tracer_, pixels)};
+    void sample(const PixelBlock& block, Tally& sums) const override {
+        tracing_.trace(pixels_of(block), pass_, tracer_, sums);
     }
 
   private:
@@ -127,7 +127,9 @@ class PathEstimator final : public Estimator {
         for (std::uint32_t reading = 0; reading < problem.measurands.size(); ++reading) {
             add_reading(reading, problem.measurands[reading]);
         }
-        if (problem.camera) tracing_.emplace(problem, paths_.lights);
+        if (!problem.camera) return;
+        tracing_.emplace(problem, paths_.lights);
+        tracing_->channels = channels_;
     }
 
     std::string_view technique() const override { return "path"; }

@@ -42,14 +42,10 @@ PictureComparison::PictureComparison(const estimators::Problem& problem, const s
         const int pixel = static_cast<int>(pixels_[i]);
         const estimators::PixelBlock block{pixel % width, pixel / width, 1, 1};
         for (std::size_t r = 0; r < kReplicates; ++r) {
-            Rgb sum;
-            for (std::uint64_t path = 0; path < kPathsOfAReplicate; ++path) {
-                Rgb luminance;
-                paths->start({{key.derived(Stream::paths).derived(r)}, path, r})
-                    ->sample(block, {&luminance, 1});
-                sum += luminance;
-            }
-            traced_cd_m2_[r * pixels_.size() + i] = sum.luminance() / double{kPathsOfAReplicate};
+            estimators::Tally sums(1);
+            for (std::uint64_t path = 0; path < kPathsOfAReplicate; ++path)
+                paths->start({{key.derived(Stream::paths).derived(r)}, path, r})->sample(block, sums);
+            traced_cd_m2_[r * pixels_.size() + i] = sums.sum[0].luminance() / double{kPathsOfAReplicate};
         }
         stage.advance();
     });

@@ -27,9 +27,10 @@ class CertainLight {
 
   private:
     std::vector<patches::Float3> corners_;  ///< relative to the ray caster's centre
-    std::vector<std::array<std::uint32_t, 3>> triangles_;  ///< of corners, clockwise as the receivers see them
-    std::size_t sums_ = 1;                                 ///< the whole and its shares
-    std::vector<std::array<float, kBands>> luminances_;    ///< triangles x sums [cd/m2]
+    std::vector<std::array<std::uint32_t, 3>>
+        triangles_;                                      ///< of corners, clockwise as the receivers see them
+    std::size_t sums_ = 1;                               ///< the whole and its shares
+    std::vector<std::array<float, kBands>> luminances_;  ///< triangles x sums [cd/m2]
 };
 
 }  // namespace stilb::estimators

@@ -53,7 +53,7 @@ class GuessGather {
     /// Sums of luminances over rays, by lanes [cd/m2].
     struct Sums {
         std::array<PointTile::Floats, kBands> guessed{};
-        std::array<Rgb, kPacketWidth> found{};  ///< by path tracing beyond the guess
+        std::array<Rgb, kPacketWidth> found{};              ///< by path tracing beyond the guess
         std::array<std::vector<Rgb>, kPacketWidth> shares;  ///< of the channels in both; empty without
         std::array<double, kPacketWidth> largest{};
         std::uint64_t continued = 0;  ///< rays

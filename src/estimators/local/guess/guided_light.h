@@ -27,8 +27,8 @@ struct GuidedLight {
     /// Parts of its key.
     enum class Stream : std::uint64_t { guess, pilot, dark };
 
-    /// The guided light of a problem, divided into its channels; null where reflections have a limit, or there
-    /// are none.
+    /// The guided light of a problem, divided into its channels; null where reflections have a limit, or
+    /// there are none.
     static std::unique_ptr<GuidedLight> make(const Problem& problem, const transport::LightSampler& lights,
                                              const transport::PathTracer& tracer, math::KeyOf<Stream> key);
 
@@ -123,7 +123,7 @@ class GuidedReadings {
     std::size_t lit_;                               ///< of the even ones; those behind them are dark
     std::vector<PointTile> tiles_, general_tiles_;  ///< not of dark ones
     std::vector<Group> groups_, general_groups_;
-    std::vector<Sources> sources_;  ///< per group of tiles_
+    std::vector<Sources> sources_;                ///< per group of tiles_
     std::vector<Rgb> known_;                      ///< per even receiver that is lit
     std::vector<std::vector<Rgb>> known_shares_;  ///< of the channels in it; none without channels
     const Monitor& monitor_;

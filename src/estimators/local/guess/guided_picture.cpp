@@ -71,8 +71,7 @@ class GuidedPicture final : public LocalPicture {
               gather_points_(
                   gather_points(pass.key.derived(PassStream::guess_rays), kRays * pass.index, kRays)) {}
 
-        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-            Tally sums(pixels.size());
+        void sample(const PixelBlock& block, Tally& sums) const override {
             const auto [even, glossy] = picture_.divide(picture_.sub_points_.of_block(block, pass_, sums));
             choose_near(pool_, even, picture_.guide_.k_per_m2(kPoints),
                         [&](const SubPointPacket& packet, const KernelChoice::Sums& near) {
@@ -80,8 +79,6 @@ class GuidedPicture final : public LocalPicture {
                         });
             if (!glossy.empty())
                 picture_.reception_.receive(glossy, {block.left, block.top}, light_paths(), pass_, sums);
-            std::copy(sums.sum.begin(), sums.sum.end(), pixels.begin());
-            return {sums.invalid, sums.continued};
         }
 
       private:

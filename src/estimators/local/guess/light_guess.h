@@ -78,8 +78,8 @@ class LightGuess {
     /// The channels of the light, or null.
     const transport::Channels* channels() const { return channels_; }
 
-    // The diffuse part of the reflected light [cd/m2]: at a point of a side, its mean there, and along the ray
-    // of a lane.
+    // The diffuse part of the reflected light [cd/m2]: at a point of a side, its mean there, and along the
+    // ray of a lane.
 
     transport::LightSum at(std::uint32_t side, const math::Barycentric& at) const;
     transport::LightSum mean(std::uint32_t side) const { return at(side, {1. / 3, 1. / 3, 1. / 3}); }
@@ -108,7 +108,7 @@ class LightGuess {
     patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
     SharedPlaces shared_;
     std::vector<std::uint32_t> lit_sides_;
-    std::vector<CornerLuminances> corners_;           ///< per side
+    std::vector<CornerLuminances> corners_;  ///< per side
     const transport::Channels* channels_;
     std::vector<CornerLuminances> corners_of_shares_;  ///< sides x channels
     double lit_area_m2_ = 0;

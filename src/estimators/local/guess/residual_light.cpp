@@ -145,7 +145,10 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
                              BoundedDirect::Part part, math::SampleStream& stream) const -> Start {
     const patches::Patches& patches = guess_.patches();
     const transport::Channels* const channels = guess_.channels();
-    Start start{side_point(patches, caster_, side, at), guess_.at(side, at), transport::LightSum(channels), {},
+    Start start{side_point(patches, caster_, side, at),
+                guess_.at(side, at),
+                transport::LightSum(channels),
+                {},
                 transport::LightSum(channels)};
     const Frame frame = Frame::around(start.point.normal);
     ChosenArrival chosen(stream.next(), channels);
@@ -346,8 +349,7 @@ void ResidualLight::branch_out(const materials::SplitMaterial& parts, const tran
         if (stream.next() >= survival) continue;
         const auto [u1, u2] = math::even_point(i, kBranches, shift);
         const materials::ShadedSurface surface(*start.material, normal, normal);
-        const auto scattered =
-            surface.sample_outgoing(surface.frame().to_local(start.incoming), u1, u2);
+        const auto scattered = surface.sample_outgoing(surface.frame().to_local(start.incoming), u1, u2);
         if (!scattered) continue;
         const Vec3 direction = surface.frame().to_world(scattered->direction);
         const double probability = survival * (is_diffuse ? of_diffuse : sum - of_diffuse) / sum;

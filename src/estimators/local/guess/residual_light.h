@@ -76,8 +76,8 @@ class ResidualLight {
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
-    /// Goes on from a start with some paths, each by one of the parts of the material. `diffuse`, `gloss`: the
-    /// start as their vertices.
+    /// Goes on from a start with some paths, each by one of the parts of the material. `diffuse`, `gloss`:
+    /// the start as their vertices.
     void branch_out(const materials::SplitMaterial& parts, const transport::LightVertex& diffuse,
                     const transport::LightVertex& gloss, math::SampleStream& stream,
                     std::vector<transport::LightVertex>& nodes) const;

@@ -56,8 +56,8 @@ class SolutionPicture final : public Estimator {
     class SolutionPass final : public PicturePass {
       public:
         SolutionPass(const SolutionPicture& picture, const Pass& pass) : picture_(picture), pass_(pass) {}
-        Sampled sample(const PixelBlock& block, std::span<Rgb> pixels) const override {
-            return {picture_.sample(block, pass_, pixels)};
+        void sample(const PixelBlock& block, Tally& sums) const override {
+            picture_.sample(block, pass_, sums);
         }
 
       private:
@@ -83,7 +83,7 @@ class SolutionPicture final : public Estimator {
         return luminance;
     }
 
-    std::uint64_t sample(const PixelBlock& block, const Pass& pass, std::span<Rgb> pixels) const {
+    void sample(const PixelBlock& block, const Pass& pass, Tally& sums) const {
         CameraPaths started = tracing_.start_paths(pixels_of(block), pass);
         std::vector<transport::Path*> standing;
         std::vector<ViewedHit> points;
@@ -99,7 +99,7 @@ class SolutionPicture final : public Estimator {
                 path.luminance_cd_m2 += path.throughput * indirect(*locations[i], pass.replicate);
         }
         add_direct(standing);
-        return started.write_to(pixels);
+        started.add_to(sums, nullptr);
     }
 
     Rgb indirect(const PatchLocation& seen, std::uint64_t replicate) const {
