@@ -15,22 +15,15 @@ constexpr std::uint64_t kPassesBeforePaces = 2;
 
 }  // namespace
 
-Passes::Passes(const estimators::Estimator& estimator, const std::array<int, 2>& resolution,
-               const std::vector<bool>& blind, const PicturePlan& plan, std::uint64_t seed, PictureSink* sink,
-               const Monitor& monitor, const PictureComparison* comparison)
+Passes::Passes(const estimators::Estimator& estimator, const std::vector<bool>& blind, PictureSums& sums,
+               PictureSink* sink, const Monitor& monitor, const PictureComparison* comparison)
     : estimator_(estimator),
       comparison_(comparison),
       monitor_(monitor),
       blind_(blind),
       sink_(sink),
-      resolution_(resolution),
-      width_(static_cast<std::size_t>(resolution[0])),
-      has_paces_(plan.has_paces),
-      key_(key_of_seed(seed).derived(RunStream::picture)),
-      offset_key_(key_of_seed(seed).derived(RunStream::picture_offset)),
-      cells_key_(key_of_seed(seed).derived(RunStream::picture_cells)),
-      pixels_(width_ * static_cast<std::size_t>(resolution[1])),
-      sums_(resolution, plan) {}
+      sums_(sums),
+      pixels_(blind.size()) {}
 
 double Passes::attained_error() const {
     return sums_.attained_error(blind_) + kBiasesOfMostPixels * bias().at_most;
@@ -46,13 +39,14 @@ PictureComparison::Bias Passes::bias() const {
 }
 
 void Passes::advance(std::uint64_t) {
-    const std::uint64_t p = sums_.passes(), replicate = p % sums_.all_replicates();
-    if (has_paces_ && p == kPassesBeforePaces * sums_.all_replicates())
-        sums_.set_paces({resolution_, cells_key_}, blind_);
+    const RunPlan& plan = sums_.plan();
+    const std::uint64_t p = sums_.passes(), replicate = p % plan.replicates;
+    if (plan.has_paces && p == kPassesBeforePaces * plan.replicates) sums_.set_paces(blind_);
+    const math::RandomKey key = key_of_seed(plan.seed).derived(RunStream::picture).derived(replicate);
     const std::vector<PicturePaces::Part> parts = parts_of_pass();
     std::vector<std::unique_ptr<const estimators::PicturePass>> started(parts.size());
     parallel_for(parts.size(), [&](std::size_t i) {
-        started[i] = estimator_.start({{key_.derived(replicate)}, parts[i].sample, replicate});
+        started[i] = estimator_.start({{key}, parts[i].sample, replicate});
     });
     struct Task {
         const estimators::PixelBlock& block;
@@ -73,25 +67,27 @@ void Passes::advance(std::uint64_t) {
 }
 
 std::vector<PicturePaces::Part> Passes::parts_of_pass() const {
-    const std::uint64_t p = sums_.passes(), replicates = sums_.all_replicates();
+    const std::uint64_t p = sums_.passes(), replicates = sums_.plan().replicates;
     if (sums_.paces()) return sums_.paces()->parts_of(p % replicates, p / replicates);
     // Blocks have another offset in every pass, so that their edges do not show.
-    const auto [u, v] = math::SampleStream(offset_key_, p).next_two();
+    const math::RandomKey key = key_of_seed(sums_.plan().seed).derived(RunStream::picture_offset);
+    const auto [u, v] = math::SampleStream(key, p).next_two();
     return {{p / replicates,
-             estimators::blocks_of(resolution_, {1 + static_cast<int>(u * estimators::kBlockSize),
-                                                 1 + static_cast<int>(v * estimators::kBlockSize)})}};
+             estimators::blocks_of(sums_.resolution(), {1 + static_cast<int>(u * estimators::kBlockSize),
+                                                        1 + static_cast<int>(v * estimators::kBlockSize)})}};
 }
 
 void Passes::sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
     estimators::Tally samples(block.pixels());
     pass.sample(block, samples);
     invalid_ += samples.invalid;
+    const auto width = static_cast<std::size_t>(sums_.resolution()[0]);
     for (std::size_t i = 0; i < samples.sum.size(); ++i) {
         const std::size_t x =
             static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
         const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
         for (std::size_t b = 0; b < kBands; ++b) {
-            pixels_[y * width_ + x][b] = static_cast<float>(samples.sum[i][b]);
+            pixels_[y * width + x][b] = static_cast<float>(samples.sum[i][b]);
         }
     }
 }

@@ -22,16 +22,15 @@ namespace stilb::run {
 inline constexpr double kBiasesOfMostPixels = 2;
 
 /// A picture that accumulates one pass after another over all blocks or, once its cells have paces, over
-/// those cells that take part. Keeps references to the arguments' targets.
+/// those cells that take part. Keeps references to the arguments' targets; `sums` hold all that is done at
+/// any time.
 class Passes final : public Work {
   public:
     /// `blind`: the pixels outside of the camera's field. `sink` may be null, and `comparison`, for methods
     /// without patches.
-    Passes(const estimators::Estimator& estimator, const std::array<int, 2>& resolution,
-           const std::vector<bool>& blind, const PicturePlan& plan, std::uint64_t seed, PictureSink* sink,
-           const Monitor& monitor, const PictureComparison* comparison);
+    Passes(const estimators::Estimator& estimator, const std::vector<bool>& blind, PictureSums& sums,
+           PictureSink* sink, const Monitor& monitor, const PictureComparison* comparison);
 
-    const PictureSums& sums() const { return sums_; }
     /// The passes of the pixels that take part in all.
     std::uint64_t samples() const override { return sums_.passes(); }
     std::uint64_t samples_in_all() const override { return sums_.passes(); }
@@ -41,8 +40,11 @@ class Passes final : public Work {
     bool has_result() const override { return sums_.passes() >= 2; }
     /// After 1, 2, 3, 4, 6, 8, 12 ... passes of each replicate.
     std::uint64_t next_check() const override {
-        const std::uint64_t replicates = sums_.all_replicates();
-        return replicates * statistics::next_check(sums_.passes() / replicates, 1);
+        return check_after(sums_.passes() / sums_.plan().replicates);
+    }
+    bool is_at_check() const override {
+        const std::uint64_t replicates = sums_.plan().replicates, passes = sums_.passes();
+        return passes >= replicates && check_after(passes / replicates - 1) == passes;
     }
     std::uint64_t most_at_once() const override { return 1; }
     double attained_error() const override;
@@ -56,6 +58,10 @@ class Passes final : public Work {
     void advance(std::uint64_t) override;
 
   private:
+    /// `rounds`: passes of each replicate.
+    std::uint64_t check_after(std::uint64_t rounds) const {
+        return sums_.plan().replicates * statistics::next_check(rounds, 1);
+    }
     std::vector<PicturePaces::Part> parts_of_pass() const;
     void sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass);
 
@@ -64,13 +70,9 @@ class Passes final : public Work {
     const Monitor& monitor_;
     const std::vector<bool>& blind_;
     PictureSink* sink_;
-    std::array<int, 2> resolution_;
-    std::size_t width_;
-    bool has_paces_;
-    math::RandomKey key_, offset_key_, cells_key_;
+    PictureSums& sums_;
     std::vector<std::array<float, 3>> pixels_;  ///< of the last pass
-    PictureSums sums_;
-    double samples_ = 0;  ///< of all pixels
+    double samples_ = 0;                        ///< of all pixels
     std::atomic<std::uint64_t> invalid_ = 0;
 };
 

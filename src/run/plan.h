@@ -1,5 +1,5 @@
-// What a run of readings decides before its samples count, and its sums so far: values that another run
-// continues, in parts or at another time.
+// What a run decides before its samples count, and the sums of a run of readings so far: values that another
+// run continues, in parts or at another time. (The sums of a picture: pictures/picture_sums.h.)
 #pragma once
 
 #include <cstddef>
@@ -20,15 +20,20 @@ struct RunPlan {
     std::string technique;  ///< Estimator::technique()
     std::uint64_t seed = 1;
     std::size_t replicates = 32;
-    bool pools_errors = false;  ///< of readings side by side
-    bool has_paces = false;     ///< packets that are sure enough take fewer samples (paces.h)
+    /// Of readings or pixels side by side. Neighbours help only where their samples are independent of each
+    /// other: light that is stored on patches is not.
+    bool pools_errors = false;
+    bool has_paces = false;  ///< packets or cells that are sure enough take fewer samples (paces.h)
+    /// Of each replicate the paces of its packets or cells. Empty before they are decided.
+    std::vector<std::vector<estimators::Pace>> paces = {};
+
+    // Of readings alone.
+
     /// Parts of a replicate's samples with sums of their own, so that there is work for many threads.
     std::size_t strands = 1;
     std::uint64_t unit = 1;         ///< samples of a replicate are a multiple of this
     std::uint64_t first_check = 1;  ///< samples of a replicate before the first error estimate
     std::uint64_t most_at_once = 1;
-    /// Of each replicate the paces of its packets. Empty before they are decided.
-    std::vector<std::vector<estimators::Pace>> paces;
 
     /// Few replicates where all sensors are large grids: the points of a replicate then lie more evenly, and
     /// neighbours help with the errors (statistics/pooled_errors.h).

@@ -85,9 +85,8 @@ struct PictureMethod {
     std::uint64_t replicates = kPictureReplicates;
     bool lights_patches = false;
 
-    PicturePlan plan() const {
-        if (lights_patches) return {replicates, PicturePlan::Errors::own};
-        return {replicates, PicturePlan::Errors::pooled, true};
+    RunPlan plan(std::string_view technique, std::uint64_t seed) const {
+        return {std::string(technique), seed, replicates, !lights_patches, !lights_patches};
     }
 };
 
@@ -105,10 +104,10 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
             100 * bias.at_most));
 }
 
-/// `options`: `asked` with defaults.
+/// Begins a picture, or continues one whose sums have a plan. `options`: `asked` with defaults.
 RenderResult render_by(const PictureMethod& method, const Scene& scene, const Sensor& sensor,
                        const RunOptions& asked, const RunOptions& options, PictureSink* sink,
-                       const std::atomic<bool>* interrupt) {
+                       const std::atomic<bool>* interrupt, PictureSums& sums) {
     const Camera& camera = *sensor.camera();
     Session session(scene, {&sensor, 1}, asked, options, sink, interrupt);
     std::vector<Warning> of_scene = session.scene_warnings({&sensor, 1});
@@ -124,13 +123,16 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
             comparison.emplace(problem, blind,
                                math::KeyOf<PictureComparison::Stream>{
                                    key_of_seed(options.seed).derived(RunStream::picture_comparison)});
-        Passes passes(*estimator, camera.resolution, blind, method.plan(), options.seed, sink,
-                      session.monitor(), comparison ? &*comparison : nullptr);
+        if (sums.plan().technique.empty())
+            sums = PictureSums(camera.resolution, method.plan(estimator->technique(), options.seed));
+        if (sums.resolution() != camera.resolution)
+            throw std::invalid_argument("the sums are those of a picture of another size");
+        Passes passes(*estimator, blind, sums, sink, session.monitor(), comparison ? &*comparison : nullptr);
         session.run(passes, result);
         session.describe(*estimator, result);
-        result.replicates = static_cast<int>(passes.sums().replicates());
-        result.pixels = passes.sums().pixels();
-        result.samples_per_pixel = passes.sums().samples_per_pixel(blind);
+        result.replicates = static_cast<int>(sums.replicates());
+        result.pixels = sums.pixels();
+        result.samples_per_pixel = sums.samples_per_pixel(blind);
         add_means(blind, result);
         if (comparison) add_patch_error(passes.bias(), result);
     });
@@ -142,23 +144,28 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
 }  // namespace
 
 RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& asked_options,
-                    PictureSink* sink, const std::atomic<bool>* interrupt) {
+                    PictureSink* sink, const std::atomic<bool>* interrupt, PictureSums* state) {
     if (has_levels_of_detail(scene)) {
         DetailedScene detailed = with_levels_of_detail(scene, {&camera, 1});
-        RenderResult result = render(detailed.scene, camera, asked_options, sink, interrupt);
+        RenderResult result = render(detailed.scene, camera, asked_options, sink, interrupt, state);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
     require_valid(asked_options);
-    const estimators::EstimatorEntry& method = estimators::find_estimator(asked_options.method);
-    const RunOptions options = with_picture_target(asked_options);
+    PictureSums own;
+    PictureSums& sums = state ? *state : own;
+    const bool begins = sums.plan().technique.empty();
+    const estimators::EstimatorEntry& method =
+        estimators::find_estimator(begins ? asked_options.method : sums.plan().technique);
+    RunOptions options = with_picture_target(asked_options);
+    if (!begins) options.seed = sums.plan().seed;
     if (!method.measures_luminance) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
     const std::uint64_t replicates = method.lights_patches ? kPatchPictureReplicates : kPictureReplicates;
     RenderResult result = render_by({method.make, replicates, method.lights_patches}, scene, camera,
-                                    asked_options, options, sink, interrupt);
+                                    asked_options, options, sink, interrupt, sums);
     if (method.has_heavy_tails) {
         result.warnings.emplace_back(
             WarningKind::method,
@@ -182,11 +189,12 @@ RenderResult render_solution(const Scene& scene, const Sensor& camera, estimator
     options.method = "solution";
     options.threads = threads;
     options.paths = std::max(kSmoothingPasses / replicates, std::uint64_t{1}) * replicates;
+    PictureSums sums;
     return render_by({[&](const estimators::Problem& problem) {
                           return make_solution_picture(problem, std::move(solution));
                       },
                       replicates, true},
-                     relit_scene, camera, options, options, sink, interrupt);
+                     relit_scene, camera, options, options, sink, interrupt, sums);
 }
 
 }  // namespace stilb::run

@@ -18,6 +18,8 @@ struct PatchSolution;
 
 namespace stilb::run {
 
+class PictureSums;
+
 // Progress of a run.
 
 class ProgressSink {
@@ -81,9 +83,10 @@ void measure_part(const Scene& scene, std::span<const Sensor> sensors, const Run
 
 /// Renders one camera. Without any limit, for a minute. The result depends on scene, camera, method, bounces
 /// and seed, and on the passes done: not on threads. `interrupt` ends the run early, with a result. Throws as
-/// measure() does.
+/// measure() does. `state`: may be null; it is continued as the state of measure() is.
 RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& options,
-                    PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr);
+                    PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr,
+                    PictureSums* state = nullptr);
 
 /// Renders one camera from a solution, its groups of lights multiplied by factors: a few passes for smooth
 /// edges. Errors come from the solution's replicates. Throws InputError where the solution does not fit the

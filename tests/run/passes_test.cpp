@@ -71,7 +71,7 @@ class MadeUpPicture final : public estimators::Estimator {
 };
 
 constexpr std::array<int, 2> kResolution{64, 32};
-constexpr PicturePlan kPlan{4, PicturePlan::Errors::pooled, true};
+RunPlan plan_with_paces(std::uint64_t seed) { return {"made up", seed, 4, true, true}; }
 
 /// Large deviations on the left, small ones on the right.
 double deviation(int x) { return x < 21 ? 50 : 10; }
@@ -80,15 +80,20 @@ double two_halves(const Pass&, int x, double u) { return 100 + deviation(x) * st
 /// A picture after so many passes of each replicate.
 struct Finished {
     Finished(LuminanceOfPass luminance, std::uint64_t rounds, std::uint64_t seed = 1,
-             const std::array<int, 2>& resolution = kResolution, const PicturePlan& plan = kPlan)
+             const std::array<int, 2>& resolution = kResolution)
+        : Finished(std::move(luminance), rounds, resolution, plan_with_paces(seed)) {}
+    Finished(LuminanceOfPass luminance, std::uint64_t rounds, const std::array<int, 2>& resolution,
+             const RunPlan& plan)
         : picture(std::move(luminance)),
           blind(static_cast<std::size_t>(resolution[0]) * static_cast<std::size_t>(resolution[1])),
-          passes(picture, resolution, blind, plan, seed, nullptr, Monitor::none(), nullptr) {
+          sums(resolution, plan),
+          passes(picture, blind, sums, nullptr, Monitor::none(), nullptr) {
         for (std::uint64_t p = 0; p < plan.replicates * rounds; ++p) passes.advance(1);
     }
 
     MadeUpPicture picture;
     std::vector<bool> blind;
+    PictureSums sums;
     Passes passes;
 };
 
@@ -99,7 +104,7 @@ TEST(Passes, TakeFewerSamplesWhereTheErrorIsSmall) {
         EXPECT_EQ(all.picture.numbers(r, 63, 5).size(),
                   4u);  // a 25th of the variance, an eighth with reserve
     }
-    const double mean = all.passes.sums().samples_per_pixel(all.blind);
+    const double mean = all.sums.samples_per_pixel(all.blind);
     EXPECT_GT(mean, 4 * 8);
     EXPECT_LT(mean, 4 * 28);
 }
@@ -115,9 +120,9 @@ TEST(Passes, NumberTheSamplesOfPixelsWithoutGaps) {
 }
 
 TEST(Passes, TakeAllSamplesWithoutPaces) {
-    const Finished all(two_halves, 16, 1, kResolution, {4, PicturePlan::Errors::pooled, false});
+    const Finished all(two_halves, 16, kResolution, {"made up", 1, 4, true, false});
     EXPECT_EQ(all.picture.numbers(2, 63, 5).size(), 16u);
-    EXPECT_EQ(all.passes.sums().samples_per_pixel(all.blind), 64);
+    EXPECT_EQ(all.sums.samples_per_pixel(all.blind), 64);
 }
 
 /// Whatever a replicate finds: the numbers of its samples stay, those of the others change.
@@ -150,9 +155,9 @@ TEST(Passes, KeepTheExpectation) {
     for (std::uint64_t seed = 0; seed < seeds; ++seed) {
         const Finished all(skewed, 16, seed, {20, 1});
         double sum = 0;
-        for (std::size_t i = 0; i < 20; ++i) sum += all.passes.sums().luminance_cd_m2(i);
+        for (std::size_t i = 0; i < 20; ++i) sum += all.sums.luminance_cd_m2(i);
         means.push_back(sum / 20);
-        samples += all.passes.sums().samples_per_pixel(all.blind) / seeds;
+        samples += all.sums.samples_per_pixel(all.blind) / seeds;
     }
     EXPECT_LT(samples, 58) << "some of the 64 samples are saved";
     const statistics::Estimate mean = statistics::estimate_from_replicates(means);
@@ -166,7 +171,7 @@ TEST(Passes, ErrorsHoldWhereTheNumberOfSamplesChanges) {
     double stated = 0, expected = 0;
     for (std::uint64_t seed = 1; seed <= 50; ++seed) {
         const Finished all(two_halves, 32, seed);
-        const Pixels pixels = all.passes.sums().pixels();
+        const Pixels pixels = all.sums.pixels();
         for (int y = 0; y < kResolution[1]; ++y) {
             for (int x = 24; x < kResolution[0] - 1; ++x) {
                 const auto samples = [&](std::uint64_t r, int at) {
@@ -195,12 +200,12 @@ TEST(Passes, LeaveOutAnUnfinishedOne) {
             return two_halves(pass, x, u);
         },
         8);
-    const Pixels before = all.passes.sums().pixels();
+    const Pixels before = all.sums.pixels();
     is_over = true;
     EXPECT_THROW(all.passes.advance(1), Cancelled);
     EXPECT_EQ(all.passes.samples(), 32u);
-    EXPECT_EQ(all.passes.sums().pixels().rgb_cd_m2, before.rgb_cd_m2);
-    EXPECT_EQ(all.passes.sums().pixels().standard_error_cd_m2, before.standard_error_cd_m2);
+    EXPECT_EQ(all.sums.pixels().rgb_cd_m2, before.rgb_cd_m2);
+    EXPECT_EQ(all.sums.pixels().standard_error_cd_m2, before.standard_error_cd_m2);
 }
 
 }  // namespace

@@ -1,6 +1,9 @@
 #include "run/pictures/picture_paces.h"
 
+#include <algorithm>
 #include <map>
+#include <stdexcept>
+#include <utility>
 
 #include "base/parallel.h"
 #include "run/paces.h"
@@ -22,12 +25,14 @@ std::array<int, 2> first_cell(math::RandomKey key) {
 
 }  // namespace
 
-PicturePaces::PicturePaces(const std::array<int, 2>& resolution, math::RandomKey key)
-    : width_(static_cast<std::size_t>(resolution[0])) {
+PicturePaces::PicturePaces(const std::array<int, 2>& resolution, math::RandomKey key, Paces paces)
+    : width_(static_cast<std::size_t>(resolution[0])), paces_(std::move(paces)) {
     const std::array<int, 2> first = first_cell(key);
     for (std::size_t axis = 0; axis < 2; ++axis) shift_[axis] = kEdge - static_cast<std::size_t>(first[axis]);
     columns_ = (width_ - 1 + shift_[0]) / kEdge + 1;
     cells_ = estimators::blocks_of(resolution, first);
+    if (!std::ranges::all_of(paces_, [&](const auto& own) { return own.size() == cells_.size(); }))
+        throw std::invalid_argument("the paces are those of another picture");
 }
 
 std::uint32_t PicturePaces::cell_of(std::size_t pixel) const {

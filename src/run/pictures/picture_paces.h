@@ -22,12 +22,17 @@ namespace stilb::run {
 /// The cells of a picture, blocks of pixels, which have a pace of their own in each replicate.
 class PicturePaces {
   public:
-    /// `key`: of the place of the cells, which differs from run to run, so that their edges do not show.
-    PicturePaces(const std::array<int, 2>& resolution, math::RandomKey key);
+    using Paces = std::vector<std::vector<estimators::Pace>>;  ///< of the cells, for each replicate
 
-    /// To be called once, before all that follows. `means`: replicates x pixels, of those that see anything;
-    /// `pixels`: the numbers of these, not none. `samples`: of each pixel in each replicate by now.
+    /// `key`: of the place of the cells, which differs from run to run, so that their edges do not show.
+    /// `paces`: those of a run that goes on. Throws std::invalid_argument where they are of other cells.
+    PicturePaces(const std::array<int, 2>& resolution, math::RandomKey key, Paces paces = {});
+
+    /// To be called once, before all that follows, where there are no paces. `means`: replicates x pixels, of
+    /// those that see anything; `pixels`: the numbers of these, not none. `samples`: of each pixel in each
+    /// replicate by now.
     void decide(std::span<const double> means, std::span<const std::size_t> pixels, std::uint64_t samples);
+    const Paces& all() const { return paces_; }
 
     /// The samples that a pixel takes in the first `rounds` passes of a replicate.
     std::uint64_t taken(std::size_t replicate, std::size_t pixel, std::uint64_t rounds) const {
@@ -50,7 +55,7 @@ class PicturePaces {
     std::array<std::size_t, 2>
         shift_{};  ///< of the pixels, so that the first cells are as large as the others
     std::vector<estimators::PixelBlock> cells_;
-    std::vector<std::vector<estimators::Pace>> paces_;  ///< of the cells, for each replicate
+    Paces paces_;
 };
 
 }  // namespace stilb::run

@@ -1,22 +1,64 @@
 #include "run/pictures/picture_sums.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <utility>
 
 #include "base/parallel.h"
 #include "base/rgb.h"
+#include "run/streams.h"
 #include "statistics/interval.h"
 
 namespace stilb::run {
 
-PictureSums::PictureSums(const std::array<int, 2>& resolution, const PicturePlan& plan)
-    : width_(static_cast<std::size_t>(resolution[0])),
-      pixels_(width_ * static_cast<std::size_t>(resolution[1])),
-      plan_(plan),
-      colours_(plan.has_paces ? plan.replicates : 1),
+PictureSums::PictureSums(const std::array<int, 2>& resolution, RunPlan plan)
+    : plan_(std::move(plan)),
+      resolution_(resolution),
+      pixels_(static_cast<std::size_t>(resolution[0]) * static_cast<std::size_t>(resolution[1])),
+      colours_(plan_.has_paces ? plan_.replicates : 1),
       rgb_(pixels_ * colours_),
-      luminance_(pixels_ * plan.replicates) {}
+      luminance_(pixels_ * plan_.replicates) {
+    if (!plan_.paces.empty()) paces_.emplace(resolution_, cells_key(), plan_.paces);
+}
+
+math::RandomKey PictureSums::cells_key() const {
+    return key_of_seed(plan_.seed).derived(RunStream::picture_cells);
+}
+
+void PictureSums::write(ByteWriter& bytes) const {
+    plan_.write(bytes);
+    for (const int size : resolution_) bytes.add(std::int32_t{size});
+    bytes.add(passes_);
+    bytes.add_list(rgb_);
+    bytes.add_list(luminance_);
+}
+
+PictureSums PictureSums::read(ByteReader& bytes) {
+    RunPlan plan = RunPlan::read(bytes);
+    std::array<int, 2> resolution{};
+    for (int& size : resolution) size = bytes.take<std::int32_t>("the size of the picture");
+    const auto passes = bytes.take<std::uint64_t>("the number of passes");
+    auto rgb = bytes.take_list<std::vector<std::array<float, 3>>>("the colours");
+    auto luminance = bytes.take_list<std::vector<float>>("the luminances");
+    const std::uint64_t pixels = luminance.size() / plan.replicates;
+    if (std::ranges::min(resolution) < 1 ||
+        pixels != std::uint64_t{static_cast<std::uint32_t>(resolution[0])} *
+                      static_cast<std::uint32_t>(resolution[1]) ||
+        luminance.size() != pixels * plan.replicates ||
+        rgb.size() != pixels * (plan.has_paces ? plan.replicates : 1))
+        bytes.fail("the sums are not those of the pixels");
+    try {
+        PictureSums sums(resolution, std::move(plan));
+        sums.passes_ = passes;
+        sums.rgb_ = std::move(rgb);
+        sums.luminance_ = std::move(luminance);
+        return sums;
+    } catch (const std::invalid_argument& error) {
+        bytes.fail(error.what());
+    }
+}
 
 void PictureSums::add(const std::vector<std::array<float, 3>>& pass) {
     const std::size_t replicate = passes_ % plan_.replicates, colour = passes_ % colours_;
@@ -30,7 +72,7 @@ void PictureSums::add(const std::vector<std::array<float, 3>>& pass) {
     ++passes_;
 }
 
-void PictureSums::set_paces(PicturePaces paces, const std::vector<bool>& blind) {
+void PictureSums::set_paces(const std::vector<bool>& blind) {
     std::vector<std::size_t> seen;
     for (std::size_t i = 0; i < pixels_; ++i) {
         if (!blind[i]) seen.push_back(i);
@@ -41,8 +83,9 @@ void PictureSums::set_paces(PicturePaces paces, const std::vector<bool>& blind) 
         for (const std::size_t i : seen)
             means.push_back(double{luminance_[i * plan_.replicates + r]} / static_cast<double>(samples));
     }
-    paces.decide(means, seen, samples);
-    paces_ = std::move(paces);
+    paces_.emplace(resolution_, cells_key());
+    paces_->decide(means, seen, samples);
+    plan_.paces = paces_->all();
 }
 
 std::uint64_t PictureSums::taken(std::uint64_t replicate, std::size_t pixel) const {
@@ -114,10 +157,11 @@ statistics::PooledErrors<float> PictureSums::errors() const {
             own[i] /= scales[i];
         }
     });
-    if (plan_.errors == PicturePlan::Errors::own) return {std::move(own), std::vector<int>(pixels_, degrees)};
+    if (!plan_.pools_errors) return {std::move(own), std::vector<int>(pixels_, degrees)};
     // Neighbours of other cells may have other numbers of samples: what they share is the error of one
     // sample.
-    statistics::PooledErrors<float> pooled = statistics::pool_errors<float>(width_, values, own, degrees);
+    statistics::PooledErrors<float> pooled =
+        statistics::pool_errors<float>(static_cast<std::size_t>(resolution_[0]), values, own, degrees);
     for (std::size_t i = 0; i < scales.size(); ++i) pooled.standard_errors[i] *= scales[i];
     return pooled;
 }

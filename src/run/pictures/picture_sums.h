@@ -7,39 +7,37 @@
 #include <optional>
 #include <vector>
 
+#include "base/bytes.h"
 #include "run/pictures/picture_paces.h"
+#include "run/plan.h"
 #include "run/result.h"
 #include "statistics/pooled_errors.h"
 
 namespace stilb::run {
 
-/// How many replicates a picture has, and how its errors follow from them.
-struct PicturePlan {
-    /// Neighbours help only where their samples are independent of each other: light that is stored on
-    /// patches is not.
-    enum class Errors { own, pooled };
-
-    std::uint64_t replicates = 1;  ///< with one, no errors are estimated
-    Errors errors = Errors::own;
-    bool has_paces = false;  ///< cells that are sure enough take fewer samples (picture_paces.h)
-};
-
-/// Pass p is of replicate p mod `replicates`, so that all replicates grow together. From some pass on, cells
-/// may have paces of their own; then not all of them take part in a pass.
+/// The plan of a picture and the sums of its passes: a value that another run continues. Pass p is of
+/// replicate p mod `replicates`, so that all replicates grow together. From some pass on, cells may have
+/// paces of their own; then not all of them take part in a pass.
 class PictureSums {
   public:
-    PictureSums(const std::array<int, 2>& resolution, const PicturePlan& plan);
+    PictureSums() = default;
+    /// With one replicate, no errors are estimated.
+    PictureSums(const std::array<int, 2>& resolution, RunPlan plan);
+
+    const RunPlan& plan() const { return plan_; }
+    const std::array<int, 2>& resolution() const { return resolution_; }
+
+    void write(ByteWriter& bytes) const;
+    static PictureSums read(ByteReader& bytes);
 
     std::uint64_t passes() const { return passes_; }
-    std::uint64_t replicates() const { return std::min(passes_, plan_.replicates); }
-    /// The number of replicates that passes are divided between.
-    std::uint64_t all_replicates() const { return plan_.replicates; }
+    std::uint64_t replicates() const { return std::min<std::uint64_t>(passes_, plan_.replicates); }
 
     /// `pass`: a sample of each pixel, 0 for those that take none.
     void add(const std::vector<std::array<float, 3>>& pass);
 
     /// Decides the paces, for a plan that has them; all replicates have as many passes by now.
-    void set_paces(PicturePaces paces, const std::vector<bool>& blind);
+    void set_paces(const std::vector<bool>& blind);
     /// Null before.
     const PicturePaces* paces() const { return paces_ ? &*paces_ : nullptr; }
 
@@ -72,9 +70,12 @@ class PictureSums {
     double variance_per_sample(std::size_t pixel) const;
     statistics::PooledErrors<float> errors() const;  ///< [cd/m2]
 
-    std::size_t width_, pixels_;
-    PicturePlan plan_;
-    std::size_t colours_;  ///< sums of colours for each pixel: one, or one for each replicate
+    math::RandomKey cells_key() const;
+
+    RunPlan plan_;
+    std::array<int, 2> resolution_{};
+    std::size_t pixels_ = 0;
+    std::size_t colours_ = 1;  ///< sums of colours for each pixel: one, or one for each replicate
     std::vector<std::array<float, 3>> rgb_;  ///< pixels x colours
     std::vector<float> luminance_;           ///< pixels x replicates
     std::uint64_t passes_ = 0;
