@@ -99,12 +99,12 @@ io::Picture picture_of(const estimators::PictureTracing& tracing, const Converge
                                          state.sides_cd_m2);
         for (const estimators::PixelBlock& block : estimators::blocks_of(tracing.camera.resolution)) {
             const std::vector<estimators::Pixel> places = pixels_of(block);
-            std::vector<Rgb> values(places.size());
+            estimators::Tally values(places.size());
             pass.sample(block, values);
             for (std::size_t k = 0; k < places.size(); ++k) {
                 const std::size_t pixel =
                     static_cast<std::size_t>(places[k].y) * row + static_cast<std::size_t>(places[k].x);
-                estimators::add_to(picture.rgb_cd_m2[pixel], values[k] * (1. / passes));
+                estimators::add_to(picture.rgb_cd_m2[pixel], values.sum[k] * (1. / passes));
             }
         }
     }

@@ -4,12 +4,18 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <memory>
 #include <optional>
+#include <span>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "estimators/estimator_list.h"
+#include "run/campaign.h"
+#include "run/glare/glare.h"
+#include "run/possible_light.h"
 #include "run/run.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"
@@ -182,31 +188,51 @@ TEST(RunState, StaysWhereARunIsRefused) {
     EXPECT_THROW(measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state), std::invalid_argument);
 }
 
+/// A reading of about 1 lx; a run is interrupted after so many batches.
+class Interrupted final : public estimators::Estimator {
+  public:
+    explicit Interrupted(int batches) : left_(batches) {}
+    std::string_view technique() const override { return "made up"; }
+    void run_batch(const estimators::Batch& batch, estimators::Tally& sums) const override {
+        if (left_-- <= 0) throw Cancelled("interrupted");
+        for (std::uint64_t i = batch.first; i < batch.first + batch.count; ++i)
+            sums.add(0, Rgb::grey(0.5 + math::SampleStream(batch.key.key, i, 0).next()));
+    }
+    std::span<const Rgb> known_part() const override { return known_; }
+    std::span<const std::optional<Vec3>> sight_ends() const override { return {}; }
+    std::uint64_t batch_granularity() const override { return 1; }
+    double rays_per_sample() const override { return 1; }
+    std::vector<std::string> warnings() const override { return {}; }
+    std::unique_ptr<const estimators::PicturePass> start(const estimators::Pass&) const override {
+        return nullptr;
+    }
+
+  private:
+    mutable std::atomic<int> left_;
+    std::vector<Rgb> known_ = {Rgb{}};
+};
+
 /// A run that was interrupted in its first batch has begun some replicates: a result needs 8 of them, and
-/// takes these alone.
+/// takes these alone, also where another run goes on with them.
 TEST(RunState, MayLackReplicates) {
     const Scene scene = lit_room();
-    const Sensor sensor = floor_grid(2);
-    const RunOptions options = options_of("path", 1 << 12);
-    RunState whole;
-    const RunResult in_one_go = measure(scene, {&sensor, 1}, options, nullptr, nullptr, &whole);
-    for (const std::size_t begun : {std::size_t{3}, std::size_t{7}, std::size_t{8}, std::size_t{31}}) {
-        RunState state = whole;
-        for (std::size_t r = begun; r < state.tallies.size(); ++r)
-            state.tallies[r] = estimators::Tally(4, whole.tallies[r].taken.size());
-        std::atomic<bool> interrupt = true;
-        if (begun < 8) {
-            EXPECT_THROW(measure(scene, {&sensor, 1}, options, nullptr, &interrupt, &state), Cancelled);
-        } else {
-            const RunResult some = measure(scene, {&sensor, 1}, options, nullptr, &interrupt, &state);
-            EXPECT_EQ(some.replicates, static_cast<int>(begun));
-            for (const Reading& reading : some.sensors.at(0).readings) {
-                EXPECT_GT(reading.estimate.value, 0);
-                EXPECT_LT(reading.estimate.standard_error, reading.estimate.value);
-            }
+    const rays::RayCaster caster(scene);
+    const std::vector<Sensor> sensors{floor_grid(1)};
+    const RunOptions options;
+    const GlareViews glare(sensors, {scene, caster, 8, 1, Monitor::none()}, 32, {math::RandomKey{1}});
+    for (const int begun : {0, 3, 7, 8, 31}) {
+        const Interrupted method(begun);
+        const PossibleLight possible(scene, caster, 8, method);
+        RunState state{RunPlan::of(sensors, options, false), {}};
+        Campaign first(method, sensors, glare, possible, 1, state, options, 0);
+        EXPECT_THROW(first.advance(64), Cancelled);
+        const Campaign other(method, sensors, glare, possible, 1, state, options, 0);
+        for (const Campaign* campaign : {static_cast<const Campaign*>(&first), &other}) {
+            EXPECT_EQ(campaign->has_result(), begun >= 8);
+            EXPECT_EQ(campaign->replicates(), static_cast<std::size_t>(begun));
+            if (begun < 8) continue;
+            EXPECT_NEAR(campaign->estimates(sensors[0], 0, 0.95).readings[0].value, 1, 0.1);
         }
-        EXPECT_EQ(numbers_of(measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state)),
-                  numbers_of(in_one_go));
     }
 }
 

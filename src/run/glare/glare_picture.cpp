@@ -158,8 +158,9 @@ EyePicture picture_at(const MeasuringPoint& eye, const PictureSetting& setting) 
                                                   .camera = camera,
                                                   .monitor = setting.monitor});
     const std::vector<bool> blind = sensors::blind_pixels(camera);
-    Passes passes(*estimator, camera.resolution, blind, {.replicates = kGlareReplicates}, setting.seed,
-                  nullptr, setting.monitor, nullptr);
+    PictureSums sums(camera.resolution,
+                     {std::string(estimator->technique()), setting.seed, kGlareReplicates});
+    Passes passes(*estimator, blind, sums, nullptr, setting.monitor, nullptr);
     Stage stage(setting.monitor, "picture at an eye", kPasses);
     for (int pass = 0; pass < kPasses; ++pass) {
         passes.advance(1);
@@ -169,7 +170,7 @@ EyePicture picture_at(const MeasuringPoint& eye, const PictureSetting& setting) 
     for (std::size_t i = 0; i < pixels; ++i) {
         for (std::size_t r = 0; r < kGlareReplicates; ++r)
             picture.luminances_cd_m2[i][r] =
-                static_cast<float>(passes.sums().luminance_of_replicate_cd_m2(r, i));
+                static_cast<float>(sums.luminance_of_replicate_cd_m2(r, i));
     }
     return picture;
 }
