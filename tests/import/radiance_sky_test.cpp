@@ -196,9 +196,9 @@ TEST(RadianceSky, IsLeftOutOfSurfaces) {
         "void brightfunc skyfunc 2 skybr skybright.cal 0 3 3 34.61 6.921\nskyfunc glow g 0 0 4 1 1 1 0\ng "
         "polygon "
         "pane 0 0 9 0 0 0 1 0 0 1 1 0\n");
-    ASSERT_EQ(file.warnings.size(), 1u);
-    EXPECT_EQ(file.warnings[0],
-              "lamp pane: the brightness of a sky by direction is left out; it is for sources.");
+    EXPECT_EQ(warnings_of(file),
+              std::vector<std::string>{
+                  "lamp pane: the brightness of a sky by direction is left out; it is for sources."});
 }
 
 TEST(RadianceSky, RefusesWrongNumbers) {
