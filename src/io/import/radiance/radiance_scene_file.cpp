@@ -15,10 +15,10 @@
 #include "io/import/radiance/distribution.h"
 #include "io/import/radiance/optics.h"
 #include "io/import/radiance/shapes.h"
-#include "io/import/radiance/sky.h"
 #include "io/text/radiance_units.h"
 #include "io/text/text.h"
 #include "io/text/utf8.h"
+#include "lights/sky/sky_discs.h"
 #include "materials/black.h"
 
 namespace stilb::io::radiance {
@@ -46,7 +46,7 @@ class Assembly {
         for (const Surface& surface : description_.surfaces) add(surface);
         for (auto& [id, body] : bodies_) add_body(id, body);
         for (auto& [definition, lamp] : lamps_) add_lamp(lamp);
-        if (auto light = environment_of(sky_)) scene_.add_light("sky", std::move(*light));
+        if (auto light = lights::environment_of(sky_)) scene_.add_light("sky", std::move(*light));
     }
 
   private:
@@ -127,11 +127,16 @@ class Assembly {
         const auto numbers = numbers_of(surface);
         const Modifier& material = description_.modifiers[optics.definition];
         const bool gives_way = material.type == "glow" && !(material.numbers[3] > 0);
-        sky_.push_back({{numbers[0], numbers[1], numbers[2]},
-                        numbers[3],
-                        optics.lamp.radiance_w_sr_m2,
-                        gives_way,
-                        optics.lamp.skies});
+        lights::SkyDisc& disc = sky_.emplace_back(lights::SkyDisc{{numbers[0], numbers[1], numbers[2]},
+                                                                  numbers[3],
+                                                                  photometric(optics.lamp.radiance_w_sr_m2),
+                                                                  gives_way});
+        if (optics.lamp.skies.empty()) return;
+        disc.factor = [skies = optics.lamp.skies](const Vec3& towards) {
+            double product = 1;
+            for (const SkyPattern& sky : skies) product *= sky.factor(towards);
+            return product;
+        };
     }
 
     void add_to_lamp(const Surface& surface, const Optics& optics) {
@@ -248,7 +253,7 @@ class Assembly {
     std::map<std::size_t, MaterialId> material_of_definition_;
     std::map<MaterialId, Body> bodies_;
     std::map<std::size_t, LampSurfaces> lamps_;
-    std::vector<DistantSource> sky_;
+    std::vector<lights::SkyDisc> sky_;
 };
 
 }  // namespace
