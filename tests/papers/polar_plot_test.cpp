@@ -3,12 +3,12 @@
 #include <cmath>
 #include <numbers>
 
-#include "plot/plot.h"
+#include "papers/plot.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
 #include "support/test_folder.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 namespace {
 
 PngPixels draw(const PolarPlot& plot) {
@@ -104,4 +104,4 @@ TEST(PolarPlot, SaysWhatIsWrong) {
 TEST(PolarPlot, DrawsNothingButItsFrameWithoutData) { EXPECT_NO_THROW(draw({})); }
 
 }  // namespace
-}  // namespace stilb::plot
+}  // namespace stilb::papers
