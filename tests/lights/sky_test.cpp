@@ -10,7 +10,7 @@
 namespace stilb::lights {
 namespace {
 
-constexpr double kDegree = kPi / 180;
+constexpr double kRadiansPerDegree = kPi / 180;
 
 SkyLuminance sky_of(SkyType type, double sun_altitude) {
     return {type, 1, SunPosition{sun_altitude, 0.7}.direction(), zenith_value(type, sun_altitude), {}};
@@ -34,15 +34,16 @@ double mean_of(const SkyLuminance& sky) {
 TEST(Sky, HasTheLuminanceOfItsZenith) {
     for (const SkyType type : {SkyType::clear, SkyType::overcast, SkyType::uniform, SkyType::intermediate}) {
         for (double altitude = 5; altitude < 90; altitude += 10)
-            EXPECT_NEAR(sky_of(type, altitude * kDegree).towards({0, 0, 1}), 1, 1e-3) << altitude;
+            EXPECT_NEAR(sky_of(type, altitude * kRadiansPerDegree).towards({0, 0, 1}), 1, 1e-3) << altitude;
     }
 }
 
 TEST(Sky, GivesTheGroundItsLight) {
     for (double altitude = 5; altitude < 80; altitude += 10) {
         const auto expect_mean = [&](SkyType type, double tolerance) {
-            const double mean = mean_over_zenith(type, altitude * kDegree);
-            EXPECT_NEAR(mean_of(sky_of(type, altitude * kDegree)), mean, tolerance * mean) << altitude;
+            const double mean = mean_over_zenith(type, altitude * kRadiansPerDegree);
+            EXPECT_NEAR(mean_of(sky_of(type, altitude * kRadiansPerDegree)), mean, tolerance * mean)
+                << altitude;
         };
         expect_mean(SkyType::clear, 0.003);  // the means of both are polynomials
         expect_mean(SkyType::intermediate, 0.02);
@@ -52,11 +53,11 @@ TEST(Sky, GivesTheGroundItsLight) {
 }
 
 TEST(Sky, TheSunCulminatesInTheSouth) {
-    const Site munich{48.1 * kDegree, -11.6 * kDegree, -15 * kDegree};
+    const Site munich{48.1 * kRadiansPerDegree, -11.6 * kRadiansPerDegree, -15 * kRadiansPerDegree};
     const int solstice = day_of_year(6, 21);
     EXPECT_EQ(solstice, 172);
     const SunPosition noon = sun_position(solstice, 12, munich.latitude);
-    EXPECT_NEAR(noon.altitude / kDegree, 90 - 48.1 + 23.44, 0.05);
+    EXPECT_NEAR(noon.altitude / kRadiansPerDegree, 90 - 48.1 + 23.44, 0.05);
     EXPECT_NEAR(noon.direction().x, 0, 1e-12);
     EXPECT_LT(noon.direction().y, 0);
     EXPECT_GT(sun_position(solstice, 9, munich.latitude).direction().x, 0.5);  // in the east
