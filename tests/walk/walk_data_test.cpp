@@ -111,8 +111,16 @@ TEST(SceneData, HasTheTablesOfFacets) {
                 1 - read.scene.materials[black].material.get_if<Plastic>()->mean_reflectance()[0], 1e-12);
     const std::vector<double> table = read.numbers(facets.at("array"));
     ASSERT_EQ(table.size(), 129U);
-    EXPECT_NEAR(0.2 * std::expm1(128 / facets.at("cells_per_log").get<double>()), 1, 1e-12);
-    EXPECT_NEAR(table.back(), 0.96, 0.001);  // Fresnel's equations, perpendicular
+    const auto cosine = [&](double i) {
+        return 0.2 * std::expm1(i / facets.at("cells_per_log").get<double>());
+    };
+    EXPECT_NEAR(cosine(128), 1, 1e-12);
+    double average = 0;
+    for (std::size_t i = 0; i < 128; ++i) {
+        const double low = cosine(static_cast<double>(i)), high = cosine(static_cast<double>(i) + 1);
+        average += (table[i] + table[i + 1]) / 2 * (high * high - low * low);
+    }
+    EXPECT_NEAR(facets.at("average"), average, 1e-4);
 }
 
 TEST(SceneData, HasTheFalseColours) {
