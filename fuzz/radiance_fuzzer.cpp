@@ -10,7 +10,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     // The folder is not there, and without slashes no file of another folder is named: no file is read.
     if (text.find('/') != text.npos) return 0;
     try {
-        stilb::io::read_radiance_scene(text, "scene.rad", "no-such-directory", {.primitives = 2000});
+        stilb::io::read_radiance_scene(text, "scene.rad", "no-such-directory", {}, {.primitives = 2000});
     } catch (const stilb::InputError&) {
     }
     return 0;

@@ -24,8 +24,8 @@ statistics::Estimate scaled(const statistics::Estimate& estimate, double factor)
             factor * estimate.upper};
 }
 
-plot::Series series_of(const std::string& name, const std::vector<double>& x,
-                       std::span<const statistics::Estimate> estimates) {
+Series series_of(const std::string& name, const std::vector<double>& x,
+                 std::span<const statistics::Estimate> estimates) {
     return {name, x, collect(estimates, &statistics::Estimate::value),
             collect(estimates, &statistics::Estimate::lower),
             collect(estimates, &statistics::Estimate::upper)};

@@ -19,9 +19,9 @@ std::vector<double> of_each(const HeadStudy& study, const Number& number) {
 }
 
 /// Over the degrees from 1 to the highest.
-plot::Series curve(const cli::FitReport& report, const std::string& name,
-                   const std::function<double(int)>& number) {
-    plot::Series series{name, {}, {}};
+Series curve(const cli::FitReport& report, const std::string& name,
+             const std::function<double(int)>& number) {
+    Series series{name, {}, {}};
     for (int degree = 1; degree <= report.degree(); ++degree) {
         series.x.push_back(degree);
         series.y.push_back(number(degree));
@@ -30,10 +30,10 @@ plot::Series curve(const cli::FitReport& report, const std::string& name,
 }
 
 /// Over those that there are pictures of.
-plot::Series points(const HeadStudy& study, const std::string& name, const Number& number) {
-    plot::Series series{name, of_each(study, [](const HeadSeries& one) { return one.degree; }),
-                        of_each(study, number)};
-    series.marker = plot::MarkerStyle::circle;
+Series points(const HeadStudy& study, const std::string& name, const Number& number) {
+    Series series{name, of_each(study, [](const HeadSeries& one) { return one.degree; }),
+                  of_each(study, number)};
+    series.marker = MarkerStyle::circle;
     return series;
 }
 
@@ -94,9 +94,9 @@ std::vector<io::Column> columns_of(const HeadStudy& study) {
             column("mesh_set_up_s", [&](const HeadSeries&) { return study.mesh.set_up_s; })};
 }
 
-plot::Plot plot_of(const HeadStudy& study) {
+Plot plot_of(const HeadStudy& study) {
     const cli::FitReport& report = study.report;
-    plot::PlotPanel errors{{"error", plot::ScaleType::logarithmic}, {}, 320};
+    PlotPanel errors{{"error", plot::ScaleType::logarithmic}, {}, 320};
     errors.series = {curve(report, "distance, rms [% of the size]",
                            [&](int degree) { return kPercent * report.rms_error(degree); }),
                      curve(report, "distance, largest [% of the size]",
@@ -105,7 +105,7 @@ plot::Plot plot_of(const HeadStudy& study) {
                             [](const HeadSeries& one) { return kPercent * one.luminance_difference; }),
                      points(study, "normals, rms [°]",
                             [](const HeadSeries& one) { return kDegrees * one.normal_error_rad; })};
-    plot::PlotPanel bytes{{"bytes, mesh / series", plot::ScaleType::logarithmic}, {}, 180};
+    PlotPanel bytes{{"bytes, mesh / series", plot::ScaleType::logarithmic}, {}, 180};
     bytes.series = {curve(report, "", [&](int degree) { return report.bare_ratio(degree); })};
     return {"A head as a series of spherical harmonics",
             {"degree", plot::ScaleType::logarithmic},

@@ -6,7 +6,7 @@
 
 #include "io/text/table.h"
 #include "papers/head_study.h"
-#include "plot/plot.h"
+#include "papers/plot.h"
 
 namespace stilb::papers {
 
@@ -14,6 +14,6 @@ std::string to_text(const HeadStudy& study);
 /// A row for each series; docs/reproduce.md has the columns.
 std::vector<io::Column> columns_of(const HeadStudy& study);
 /// Errors and the ratio of bytes over degrees.
-plot::Plot plot_of(const HeadStudy& study);
+Plot plot_of(const HeadStudy& study);
 
 }  // namespace stilb::papers

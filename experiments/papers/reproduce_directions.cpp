@@ -11,8 +11,8 @@
 #include "estimators/patch_light/ray_bundle/bundle_iteration.h"
 #include "io/text/table.h"
 #include "materials/diffuse.h"
+#include "papers/plot.h"
 #include "papers/reproduce.h"
-#include "plot/plot.h"
 
 namespace stilb::papers {
 namespace {
@@ -119,14 +119,14 @@ Curve error_curve(const std::vector<std::vector<WalkSums>>& walks, const std::ve
 void reproduce_directions(const std::filesystem::path& directory) {
     std::vector<double> reflectances, rays, errors;
     std::vector<std::string> ways;
-    plot::Plot plot{"Error of a cube's patches over rays, by the directions of a step",
-                    {"rays", plot::ScaleType::logarithmic},
-                    {}};
+    Plot plot{"Error of a cube's patches over rays, by the directions of a step",
+              {"rays", plot::ScaleType::logarithmic},
+              {}};
     for (const double reflectance : kReflectances) {
         const Scene scene = lamp_in_cube(reflectance);
         const rays::RayCaster caster(scene);
         const std::vector<double> expected = reference(scene, caster);
-        plot::PlotPanel panel{
+        PlotPanel panel{
             {fmt::format("error, reflectance {}", reflectance), plot::ScaleType::logarithmic}, {}, 180};
         for (const estimators::BundleDirections way : kWays) {
             const estimators::PatchTransport transport = make_transport(scene, caster, way);

@@ -13,8 +13,8 @@
 #include "io/text/table.h"
 #include "papers/first_shot_convergence.h"
 #include "papers/furnished_room.h"
+#include "papers/plot.h"
 #include "papers/reproduce.h"
-#include "plot/plot.h"
 #include "transport/receiver.h"
 
 namespace stilb::papers {
@@ -61,13 +61,11 @@ void write_curves(const std::vector<ConvergenceCurve>& curves, const std::filesy
                   const std::string& name) {
     std::vector<std::string> names;
     std::vector<double> steps, times_s, errors;
-    plot::Plot over_steps{
-        "Error of the picture over steps, " + name, {"steps", plot::ScaleType::logarithmic}, {}};
-    plot::Plot over_time{
-        "Error of the picture over time, " + name, {"time [s]", plot::ScaleType::logarithmic}, {}};
-    plot::PlotPanel step_panel{{"relative error", plot::ScaleType::logarithmic}, {}}, time_panel = step_panel;
+    Plot over_steps{"Error of the picture over steps, " + name, {"steps", plot::ScaleType::logarithmic}, {}};
+    Plot over_time{"Error of the picture over time, " + name, {"time [s]", plot::ScaleType::logarithmic}, {}};
+    PlotPanel step_panel{{"relative error", plot::ScaleType::logarithmic}, {}}, time_panel = step_panel;
     for (const ConvergenceCurve& curve : curves) {
-        plot::Series by_steps{curve.name, {}, {}}, by_time = by_steps;
+        Series by_steps{curve.name, {}, {}}, by_time = by_steps;
         for (const auto& [step, elapsed_s, error] : curve.points) {
             names.push_back(curve.name), steps.push_back(step), times_s.push_back(elapsed_s);
             errors.push_back(error);

@@ -18,8 +18,8 @@
 #include "papers/head_in_room.h"
 #include "papers/head_report.h"
 #include "papers/head_shape.h"
+#include "papers/picture_sheet.h"
 #include "papers/reproduce.h"
-#include "plot/canvas.h"
 
 namespace stilb::papers {
 namespace {
@@ -63,7 +63,7 @@ void write_both(const io::Picture& picture, const fs::path& directory, const std
 
 /// All by one exposure: the mesh's.
 void write_pictures(const HeadStudy& study, const fs::path& directory) {
-    std::vector<plot::LabelledPicture> pictures{
+    std::vector<LabelledPicture> pictures{
         {fmt::format("mesh, {} faces", study.report.faces), picture_of(study.mesh, "the mesh")}};
     std::vector<std::string> names{"mesh"};
     for (const HeadSeries& series : study.series) {

@@ -12,8 +12,8 @@
 #include "materials/diffuse.h"
 #include "materials/phong.h"
 #include "papers/estimate_series.h"
+#include "papers/plot.h"
 #include "papers/reproduce.h"
-#include "plot/plot.h"
 #include "sensors/goniometer.h"
 #include "verification/verification.h"
 
@@ -83,9 +83,9 @@ void reproduce_polar(const std::filesystem::path& directory) {
     std::vector<double> theta_deg;
     for (std::size_t j = 0; j < goniometer.size(); ++j) theta_deg.push_back(goniometer.angles(j).theta_deg);
     std::vector<io::Column> columns{{"theta_deg", theta_deg}};
-    plot::PolarPlot plot{"Sobolev's problem with Phong surfaces: light reflected more than once",
-                         "luminance, cd/m²; r = h1 + h2 = 1 m, h1 = h2, source of 1 cd; θ > 0: away from it",
-                         {}};
+    PolarPlot plot{"Sobolev's problem with Phong surfaces: light reflected more than once",
+                   "luminance, cd/m²; r = h1 + h2 = 1 m, h1 = h2, source of 1 cd; θ > 0: away from it",
+                   {}};
     for (const Distribution& distribution : distributions(sensor)) {
         plot.series.push_back(series_of(distribution.name, theta_deg, distribution.luminance_cd_m2));
         add_columns(columns, distribution.column, "cd_m2", distribution.luminance_cd_m2);

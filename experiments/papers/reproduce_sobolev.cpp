@@ -9,8 +9,8 @@
 
 #include "cli/progress.h"
 #include "papers/estimate_series.h"
+#include "papers/plot.h"
 #include "papers/reproduce.h"
-#include "plot/plot.h"
 #include "run/run.h"
 #include "verification/verification.h"
 
@@ -99,34 +99,34 @@ std::vector<Profile> profiles_of(const std::vector<double>& radii) {
          local_lx(radii, kManyPaths)}};
 }
 
-plot::Series deviation_series(const Profile& profile, const std::vector<double>& radii,
-                              const std::vector<double>& exact) {
-    plot::Series series = series_of("", radii, profile.illuminance_lx);
+Series deviation_series(const Profile& profile, const std::vector<double>& radii,
+                        const std::vector<double>& exact) {
+    Series series = series_of("", radii, profile.illuminance_lx);
     for (auto* list : {&series.y, &series.y_low, &series.y_high}) {
         for (std::size_t i = 0; i < list->size(); ++i) (*list)[i] = 100 * ((*list)[i] / exact[i] - 1);
     }
     return series;
 }
 
-plot::Plot make_plot(const std::vector<double>& radii, const std::vector<double>& exact,
-                     const std::vector<Profile>& profiles) {
+Plot make_plot(const std::vector<double>& radii, const std::vector<double>& exact,
+               const std::vector<Profile>& profiles) {
     constexpr double kDeviationHeight = 150;
-    const plot::PlotAxis radius{"r / (h1 + h2), where p1 = p2 = 0.5 and h1 = h2", plot::ScaleType::linear, 0,
-                                kLargestRadius};
-    plot::PlotPanel values{{"illuminance E (h1 + h2)² / I", plot::ScaleType::logarithmic}, {}};
-    std::vector<plot::PlotPanel> deviations;
+    const PlotAxis radius{"r / (h1 + h2), where p1 = p2 = 0.5 and h1 = h2", plot::ScaleType::linear, 0,
+                          kLargestRadius};
+    PlotPanel values{{"illuminance E (h1 + h2)² / I", plot::ScaleType::logarithmic}, {}};
+    std::vector<PlotPanel> deviations;
     for (std::size_t p = 0; p < profiles.size(); ++p) {
         values.series.push_back(series_of(profiles[p].name, radii, profiles[p].illuminance_lx));
         const double end = profiles[p].axis_end_percent;
-        const plot::PlotAxis deviation{"deviation, %", plot::ScaleType::linear, -end, end};
+        const PlotAxis deviation{"deviation, %", plot::ScaleType::linear, -end, end};
         deviations.push_back({deviation, {deviation_series(profiles[p], radii, exact)}, kDeviationHeight});
-        values.series.back().colour = deviations.back().series[0].colour = plot::palette_colour(p + 1);
+        values.series.back().colour = deviations.back().series[0].colour = palette_colour(p + 1);
     }
-    plot::Series curve{"exact", radii, exact};
-    curve.colour = plot::palette_colour(0);
-    curve.line = plot::LineStyle::dashed;
+    Series curve{"exact", radii, exact};
+    curve.colour = palette_colour(0);
+    curve.line = LineStyle::dashed;
     values.series.push_back(curve);
-    plot::Plot plot{"Sobolev's problem: local and double local estimation, exact solution", radius, {values}};
+    Plot plot{"Sobolev's problem: local and double local estimation, exact solution", radius, {values}};
     plot.panels.insert(plot.panels.end(), deviations.begin(), deviations.end());
     return plot;
 }
@@ -141,7 +141,7 @@ void reproduce_sobolev(const std::filesystem::path& directory) {
     for (const Profile& profile : profiles)
         add_columns(columns, profile.column, "lx", profile.illuminance_lx);
     write_csv(columns, directory / "sobolev.csv");
-    const plot::Plot plot = make_plot(radii, exact, profiles);
+    const Plot plot = make_plot(radii, exact, profiles);
     for (const char* name : {"sobolev.svg", "sobolev.png"}) draw_plot(plot, directory / name);
 }
 

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <functional>
 #include <optional>
+#include <span>
 
 namespace stilb::materials {
 
@@ -18,6 +19,9 @@ class AlbedoTable {
     double at(double cosine) const;
     /// Integral of at(c) 2 c dc: the albedo under uniform illumination.
     double average() const { return average_; }
+    /// Of the cosines alpha (exp(i / cells_per_log()) - 1), from 0 to 1.
+    std::span<const double> values() const { return values_; }
+    double cells_per_log() const { return cells_per_log_; }
 
     /// Samples a cosine with a density near at(c) 2 c / average().
     double sample_cosine(double u) const;

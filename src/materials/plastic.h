@@ -36,6 +36,8 @@ class Plastic {
 
     const Parameters& parameters() const { return parameters_; }
     double concentration() const { return concentration_; }
+    /// T by the cosine.
+    const AlbedoTable& facet_table() const { return transmission_; }
     /// The albedo under uniform illumination.
     Rgb mean_reflectance() const;
     Rgb reflectance_bound() const { return mean_reflectance(); }

@@ -33,6 +33,8 @@ class RoughConductor {
 
     const Parameters& parameters() const { return parameters_; }
     double concentration() const { return concentration_; }
+    /// 1 - E by the cosine.
+    const AlbedoTable& facet_table() const { return loss_; }
     Rgb reflectance_bound() const { return parameters_.reflectance; }
 
     Rgb brdf_per_sr(const Vec3& in, const Vec3& out) const;

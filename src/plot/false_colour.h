@@ -6,7 +6,6 @@
 #include <string>
 #include <vector>
 
-#include "io/image/tone_curve.h"
 #include "plot/axis.h"
 
 namespace stilb::plot {
@@ -52,22 +51,5 @@ struct FalseColourOptions {
 /// sizes and values do not agree.
 void draw_false_colour(const FalseColour& picture, const FalseColourOptions& options,
                        const std::filesystem::path& path);
-
-// The colours of a false-colour picture.
-
-/// From almost black over blue, magenta and orange to pale yellow. Lightness increases monotonically, so that
-/// the order survives grey print and colour blindness, and equal steps of the argument are equal steps in
-/// OKLab.
-class ColourMap {
-  public:
-    ColourMap();
-
-    /// The colour at 0 (least) to 1 (most); values outside get the end's colour.
-    io::Colour at(double fraction) const;
-
-  private:
-    /// Colours at equal distances along the curve, both ends included.
-    std::vector<io::Oklab> samples_;
-};
 
 }  // namespace stilb::plot

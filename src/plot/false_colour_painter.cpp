@@ -23,14 +23,12 @@ double length_of(std::span<const Point> line) {
 }
 
 std::uint32_t to_rgb(const io::Colour& colour) {
-    const auto byte = [](double component) {
-        return static_cast<std::uint32_t>(std::lround(255 * std::clamp(component, 0.0, 1.0)));
-    };
-    return byte(colour.red) << 16 | byte(colour.green) << 8 | byte(colour.blue);
+    const auto [red, green, blue] = io::bytes_of(colour);
+    return std::uint32_t{red} << 16 | std::uint32_t{green} << 8 | std::uint32_t{blue};
 }
 
 /// The panel's first row of values comes last in the image.
-PixelImage image_of(const FalseColourPanel& panel, const Scale& scale, const ColourMap& map) {
+PixelImage image_of(const FalseColourPanel& panel, const Scale& scale, const io::ColourMap& map) {
     PixelImage image{panel.nu, panel.nv, {}};
     image.pixels.reserve(panel.values.size());
     for (int v = panel.nv - 1; v >= 0; --v) {

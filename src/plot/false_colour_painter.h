@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "io/image/colour_map.h"
 #include "plot/axis.h"
 #include "plot/canvas.h"
 #include "plot/false_colour.h"
@@ -66,7 +67,7 @@ class FalseColourPainter {
     Canvas& canvas_;
     Scale scale_;
     Ticks ticks_;
-    ColourMap map_;
+    io::ColourMap map_;
 };
 
 }  // namespace stilb::plot

@@ -41,8 +41,8 @@ std::string path_of(std::span<const Point> points, Ends ends) {
 }
 
 std::string hexadecimal(const io::Colour& colour) {
-    const auto byte = [](double component) { return std::lround(255 * std::clamp(component, 0.0, 1.0)); };
-    return fmt::format("#{:02x}{:02x}{:02x}", byte(colour.red), byte(colour.green), byte(colour.blue));
+    const auto [red, green, blue] = io::bytes_of(colour);
+    return fmt::format("#{:02x}{:02x}{:02x}", red, green, blue);
 }
 
 Drawing::Drawing(double width, double height, std::string label)

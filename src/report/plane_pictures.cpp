@@ -6,6 +6,7 @@
 #include <cmath>
 #include <map>
 
+#include "io/image/colour_map.h"
 #include "io/results/results_text.h"
 #include "plot/cell_numbers.h"
 #include "report/drawing.h"
@@ -26,7 +27,7 @@ double ratio_of(const plot::FalseColourPanel& panel) {
 
 /// The cells of each colour as one path.
 void draw_cells(Drawing& drawing, const plot::FalseColourPanel& panel, const plot::PageRectangle& frame,
-                const plot::Scale& scale, const plot::ColourMap& colours) {
+                const plot::Scale& scale, const io::ColourMap& colours) {
     struct Cells {
         io::Colour colour;
         std::string path;
@@ -70,7 +71,7 @@ std::string caption(const MeasuredPlane& plane, double ratio, const std::string&
     return words + ".";
 }
 
-Html figure_of(const MeasuredPlane& plane, const plot::Scale& scale, const plot::ColourMap& colours) {
+Html figure_of(const MeasuredPlane& plane, const plot::Scale& scale, const io::ColourMap& colours) {
     const plot::FalseColourPanel& panel = plane.panel;
     const double ratio = ratio_of(panel);
     const ScaledFrame frame{{0, panel.width_m}, {0, panel.height_m}, ratio, {kAxisLeft, kDrawingMargin}};
@@ -92,7 +93,7 @@ Html figure_of(const MeasuredPlane& plane, const plot::Scale& scale, const plot:
            raw("\n");
 }
 
-Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours) {
+Html colour_bar(const plot::Scale& scale, const io::ColourMap& colours) {
     constexpr int kSteps = 128;
     constexpr double kWidth = 420, kHeight = 12;
     Drawing drawing(kAxisLeft + kWidth + 60, kDrawingMargin + kHeight + kAxisBelow,
@@ -121,7 +122,7 @@ Html colour_bar(const plot::Scale& scale, const plot::ColourMap& colours) {
 Html plane_pictures(std::span<const MeasuredPlane> planes) {
     if (planes.empty()) return {};
     const plot::Scale scale = common_scale(planes);
-    const plot::ColourMap colours;
+    const io::ColourMap colours;
     Html html = colour_bar(scale, colours);
     for (const MeasuredPlane& plane : planes) html += figure_of(plane, scale, colours);
     return html;

@@ -224,11 +224,11 @@ TEST_F(RadianceFiles, ErrorsInNestedFilesNameThem) {
 TEST(RadianceDescription, CopiesAreLimited) {
     const radiance::Limits limits{.primitives = 1000};
     EXPECT_THROW(radiance::read_description(with_material("!genbox m b 1 1 1 | xform -a 200 -t 1 0 0\n"),
-                                            "r.rad", ".", limits),
+                                            "r.rad", ".", {}, limits),
                  InputError);
     EXPECT_THROW(radiance::read_description(
                      with_material("!genbox m b 1 1 1 | xform -a 900000 -t 1 0 0 -a 900000 -t 0 1 0\n"),
-                     "r.rad", ".", limits),
+                     "r.rad", ".", {}, limits),
                  InputError);
 }
 

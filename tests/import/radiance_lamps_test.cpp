@@ -89,7 +89,7 @@ TEST(RadianceLamps, GlowsAndIllums) {
         "a sphere sa 0 0 4 0 0 0 1\nb sphere sb 0 0 4 3 0 0 1\nc sphere sc 0 0 4 6 0 0 1\n");
     ASSERT_EQ(file.scene.lights.size(), 2u);
     EXPECT_EQ(file.scene.objects.size(), 3u);
-    EXPECT_EQ(texts_of(file.warnings),
+    EXPECT_EQ(warnings_of(file),
               (std::vector<std::string>{
                   "glow a: it lights nothing, because its radius is below 0. It is dark here.",
                   "illum c: it is seen as a lamp here; in Radiance it only casts its light."}));
@@ -196,7 +196,7 @@ TEST(RadianceLamps, PatternsThatAreNotOfIes2radAreLeftOut) {
         "1 1 1\n"
         "l sphere s 0 0 4 0 0 0 1\n");
     EXPECT_EQ(
-        texts_of(file.warnings),
+        warnings_of(file),
         (std::vector<std::string>{
             "brightfunc dim: it is left out: l has the radiance of its own numbers.",
             "brightdata d: it is left out, and its factor is 1: only the functions of source.cal, which "

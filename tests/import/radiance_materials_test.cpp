@@ -20,7 +20,7 @@ struct ReadMaterial {
 ReadMaterial read_radiance_material(const std::string& definition) {
     SceneFile file = read_rad(definition + "\nm sphere s 0 0 4 0 0 0 1\n");
     std::erase_if(file.warnings, is_of(WarningKind::no_light));
-    return {file.scene.material(file.scene.objects.at(0).materials.at(0)), texts_of(file.warnings)};
+    return {file.scene.material(file.scene.objects.at(0).materials.at(0)), warnings_of(file)};
 }
 template <typename Model>
 Model model_of(const std::string& definition) {

@@ -18,7 +18,7 @@ constexpr std::string_view kSun = " 0.517649 -0.296573 0.802549\n";
 radiance::SkyPattern sky_pattern(const std::string& texts, const std::string& numbers) {
     const radiance::Description description =
         describe_rad("void brightfunc skyfunc " + texts + " 0 " + numbers + "\n");
-    const auto pattern = radiance::SkyPattern::read(description.modifiers.at(0), description);
+    const auto pattern = radiance::read_sky_pattern(description.modifiers.at(0), description);
     EXPECT_TRUE(pattern);
     return pattern.value();
 }
@@ -148,7 +148,7 @@ TEST(RadianceSky, LeavesOtherFunctionsToTheirWarning) {
         "1\nvoid "
         "brightdata c 4 corr t.dat source.cal src_theta 0 0\n");
     for (const radiance::Modifier& modifier : description.modifiers)
-        EXPECT_FALSE(radiance::SkyPattern::read(modifier, description)) << modifier.name;
+        EXPECT_FALSE(radiance::read_sky_pattern(modifier, description)) << modifier.name;
 }
 
 constexpr std::string_view kDome =
@@ -196,9 +196,9 @@ TEST(RadianceSky, IsLeftOutOfSurfaces) {
         "void brightfunc skyfunc 2 skybr skybright.cal 0 3 3 34.61 6.921\nskyfunc glow g 0 0 4 1 1 1 0\ng "
         "polygon "
         "pane 0 0 9 0 0 0 1 0 0 1 1 0\n");
-    ASSERT_EQ(file.warnings.size(), 1u);
-    EXPECT_EQ(file.warnings[0],
-              "lamp pane: the brightness of a sky by direction is left out; it is for sources.");
+    EXPECT_EQ(warnings_of(file),
+              std::vector<std::string>{
+                  "lamp pane: the brightness of a sky by direction is left out; it is for sources."});
 }
 
 TEST(RadianceSky, RefusesWrongNumbers) {

@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "io/import/radiance/radiance_scene_file.h"
 #include "stilb/error.h"
@@ -20,6 +21,17 @@ inline SceneFile read_rad(const std::string& text,
 }
 inline radiance::Description describe_rad(const std::string& text) {
     return radiance::read_description(text, "r.rad", "no-such-directory");
+}
+
+/// The warnings of a scene, all of which name its file in front.
+inline std::vector<std::string> warnings_of(const SceneFile& file) {
+    std::vector<std::string> texts = texts_of(file.warnings);
+    for (std::string& text : texts) {
+        const std::string name = "r.rad: ";
+        EXPECT_TRUE(text.starts_with(name)) << text;
+        text.erase(0, name.size());
+    }
+    return texts;
 }
 
 /// The message with which the text is refused; "accepted" where it is not.

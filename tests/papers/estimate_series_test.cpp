@@ -8,7 +8,7 @@ namespace {
 const std::vector<statistics::Estimate> kEstimates{{2, 0.5, 1, 3}, {4, 0.25, 3.5, 4.5}};
 
 TEST(EstimateSeries, IsACurveWithItsBand) {
-    const plot::Series series = series_of("a curve", {10, 20}, kEstimates);
+    const Series series = series_of("a curve", {10, 20}, kEstimates);
     EXPECT_EQ(series.name, "a curve");
     EXPECT_EQ(series.x, (std::vector<double>{10, 20}));
     EXPECT_EQ(series.y, (std::vector<double>{2, 4}));

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/image/colour_map.h"
 #include "io/sample_picture.h"
 #include "plot/false_colour.h"
 #include "stilb/error.h"
@@ -44,14 +45,14 @@ PngPixels draw(const io::Picture& picture, const FalseColourOptions& options) {
 
 /// Where the colour is that stands for `fraction` of the scale, left of the bar.
 Spot find_value(const PngPixels& pixels, double fraction) {
-    return find_colour(pixels, ColourMap().at(fraction), pixels.width * 85 / 100);
+    return find_colour(pixels, io::ColourMap().at(fraction), pixels.width * 85 / 100);
 }
 
 TEST(FalseColourPicture, DrawsEachPixelAsOneOfThePng) {
     const PngPixels pixels = draw(with_block(1200, 300, 60), up_to_hundred());
     const Spot block = find_value(pixels, 0.6);
     EXPECT_EQ(block.count, 100);
-    const Spot rest = find_colour(pixels, ColourMap().at(0.1), pixels.width * 9 / 10);
+    const Spot rest = find_colour(pixels, io::ColourMap().at(0.1), pixels.width * 9 / 10);
     EXPECT_NEAR(rest.count, 1200 * 300, 5000);  // less the border, and a line of the bar
     EXPECT_NEAR(block.left - rest.left, 10, 1);
     EXPECT_GT(rest.y - block.y, 120);  // row 0 is at the top
@@ -107,7 +108,7 @@ TEST(FalseColourPicture, DrawsIsolinesAndNumbers) {
     const PngPixels lines = draw(ramp, options);
     ASSERT_EQ(plain.width, lines.width);
     // A cut in the upper quarter, above the labels: changes at multiples of 20 or 10 only.
-    const Spot middle = find_colour(plain, ColourMap().at(0.5), plain.width * 8 / 10);
+    const Spot middle = find_colour(plain, io::ColourMap().at(0.5), plain.width * 8 / 10);
     int changed = 0;
     for (int x = int(middle.x) - 490; x < int(middle.x) + 490; ++x) {
         if (plain.at(x, int(middle.y) - 60) == lines.at(x, int(middle.y) - 60)) continue;

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "io/image/colour_map.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
 #include "support/test_folder.h"
@@ -32,7 +33,7 @@ PngPixels draw(const FalseColour& picture, const FalseColourOptions& options) {
     return read_png(path);
 }
 
-io::Colour colour_at(double fraction) { return ColourMap().at(fraction); }
+io::Colour colour_at(double fraction) { return io::ColourMap().at(fraction); }
 
 /// The cells' part of the picture, which leaves out the colour bar at the right.
 int cells_end(const PngPixels& pixels) { return pixels.width * 87 / 100; }

@@ -130,6 +130,8 @@ std::span<const OtherConstants> other_constants() {
         {"src/lights/photometric_solid.cpp",
          "equator horizon kRadiansPerDegree kBorderRad kMargin kMostIterations step margin"},
         {"src/lights/photometric_solid.h", "kSmallestStepDeg kBounds"},
+        {"src/lights/sky/sky_discs.cpp",
+         "kRadPerDeg kLeastHeight kMostHeight kSamples kSmallDeg pixels_across"},
         {"src/lights/solid_angle/projected_parallelogram.cpp", "kLastError most_steps"},
         {"src/lights/solid_angle/projected_solid_angle.cpp", "kInPlane most_tries"},
         {"src/lights/solid_angle/seen_polygon.cpp", "kRadial kPrecision most_steps"},

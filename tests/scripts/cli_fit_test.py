@@ -1,5 +1,6 @@
 """stilb fit."""
 
+import csv
 import json
 import math
 import re
@@ -43,12 +44,14 @@ class FitTest(CommandLineTest):
         # The mean of the radius is between half the shortest edge and half the diagonal.
         self.assertTrue(0.5 < series["coefficients"][0] / math.sqrt(4 * math.pi) < 1.25)
 
-    def test_text_and_plot(self):
-        for name in ("error.svg", "error.png"):
-            plot = self.folder / name
-            result = run("fit", self.mesh, "-o", self.series, "--degree", 20, "--plot", plot)
-            self.assertEqual(result.returncode, 0, result.stderr)
-            self.assertGreater(plot.stat().st_size, 1000)
+    def test_text_and_table(self):
+        table = self.folder / "errors.csv"
+        result = run("fit", self.mesh, "-o", self.series, "--degree", 20, "--csv", table)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        errors = self.fit(self.mesh, "--degree", 20)[0]["errors"]
+        with table.open(newline="") as file:
+            rows = [{key: float(value) for key, value in row.items()} for row in csv.DictReader(file)]
+        self.assertEqual(rows, errors)
         for part in ("8 vertices, 12 faces", "longest edge", "rms error", "\n    16 ", "\n    20 ", "200978 directions",
                      "128 x 256"):
             self.assertIn(part, result.stdout)
@@ -73,10 +76,10 @@ class FitTest(CommandLineTest):
         self.expect_wrong_input([*arguments, "--center", "1,2"], '--center "1,2": expected x,y,z')
         self.expect_wrong_input([*arguments, "--tolerance", "3"], '--tolerance "3"', "0.5%")
         self.expect_wrong_input([*arguments, "--center", "50,0,0", "--force"], "box.obj: ", "center inside")
-        self.expect_wrong_input([*arguments, "--plot", "error.pdf"], "error.pdf", ".svg")
+        self.expect_wrong_input([*arguments, "--csv", "errors.txt"], "errors.txt", ".csv")
+        self.expect_wrong_input([*arguments, "--csv", self.folder / "no/errors.csv"], "no folder")
         self.expect_wrong_input(["fit", self.mesh, "-o", self.series, "--degree", 129], "--degree")
         self.expect_wrong_input(["fit", self.mesh, "-o", self.series], "--degree")
-        self.expect_wrong_input(["fit", self.mesh, "-o", self.series, "--degree", 0, "--plot", "e.svg"], "--plot")
         self.expect_wrong_input(["fit", self.mesh, "-o", self.folder / "no/s.json", "--degree", 8], "no folder")
         self.expect_wrong_input(["fit", self.scene, "-o", self.series, "--degree", 8], "room.toml")
 

@@ -7,8 +7,10 @@
 #include <cmath>
 
 #include "estimators/patch_light/solution/light_vertices.h"
+#include "io/image/colour_map.h"
 #include "materials/mirror.h"
 #include "materials/phong.h"
+#include "materials/plastic.h"
 #include "materials/ward.h"
 #include "scene/light_groups.h"
 #include "stilb/error.h"
@@ -34,6 +36,8 @@ Scene small_scene() {
     add_area_light(scene, Rectangle{{1, 1, 2}, {0, 0.5, 0}, {0.5, 0, 0}}, Rgb{{2000, 1000, 500}},
                    diffuse(0.2));
     add_point_light(scene, {1, 2, 1.5}, Rgb::grey(80));
+    for (const Rgb& base : {Rgb{}, Rgb::grey(0.5)})
+        scene.materials.push_back({"lacquer", Plastic(Plastic::Parameters{base, 1.5, 0.2})});
     return scene;
 }
 
@@ -93,6 +97,37 @@ TEST(SceneData, ListsMaterialsByTheNamesOfSceneFiles) {
     EXPECT_TRUE(materials[3].at("reflection").is_null());
     EXPECT_EQ(read.count("reflection_0"), 33U * 10U);
     EXPECT_EQ(read.count("reflection_2"), 33U * 32U * 10U);
+}
+
+TEST(SceneData, HasTheTablesOfFacets) {
+    const SceneRead read;
+    const json& materials = read.header.at("materials");
+    const std::size_t black = materials.size() - 2;
+    EXPECT_FALSE(materials[0].contains("facets"));
+    const json& facets = materials[black].at("facets");
+    EXPECT_EQ(facets, materials[black + 1].at("facets"));
+    // What the coat of a black base lets pass is lost.
+    EXPECT_NEAR(facets.at("average"),
+                1 - read.scene.materials[black].material.get_if<Plastic>()->mean_reflectance()[0], 1e-12);
+    const std::vector<double> table = read.numbers(facets.at("array"));
+    ASSERT_EQ(table.size(), 129U);
+    const auto cosine = [&](double i) {
+        return 0.2 * std::expm1(i / facets.at("cells_per_log").get<double>());
+    };
+    EXPECT_NEAR(cosine(128), 1, 1e-12);
+    double average = 0;
+    for (std::size_t i = 0; i < 128; ++i) {
+        const double low = cosine(static_cast<double>(i)), high = cosine(static_cast<double>(i) + 1);
+        average += (table[i] + table[i + 1]) / 2 * (high * high - low * low);
+    }
+    EXPECT_NEAR(facets.at("average"), average, 1e-4);
+}
+
+TEST(SceneData, HasTheFalseColours) {
+    const json colours = SceneRead().header.at("false_colours");
+    ASSERT_EQ(colours.size(), 257U);
+    EXPECT_EQ(colours.front(), json(io::bytes_of(io::ColourMap().at(0))));
+    EXPECT_EQ(colours.back(), json(io::bytes_of(io::ColourMap().at(1))));
 }
 
 TEST(SceneData, ListsLightsWithPointsForHighlights) {

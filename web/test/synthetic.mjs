@@ -1,5 +1,6 @@
 // Scenes for tests, lit by formulas: unshadowed lights and a constant indirect light.
 import { packContainer } from "./container.mjs";
+import { facetTable } from "./facets.mjs";
 
 export const DEGREE = 6;
 export const TERMS = ((DEGREE + 1) * (DEGREE + 2)) / 2;
@@ -30,6 +31,7 @@ export function tableValue(k, theta, { albedo, tilt }) {
 export class SyntheticScene {
   header = {
     name: "Synthetic room", stilb: "0.1.0", file: "synthetic.toml", degree: DEGREE, bounds: null,
+    false_colours: Array.from({ length: 257 }, (_, i) => Array(3).fill(Math.min(i, 255))),
     materials: [], objects: [], groups: [], lights: [], cameras: [], sensors: [], meshes: [],
   };
   positions = [];
@@ -163,6 +165,11 @@ export class SyntheticScene {
     }
     header.materials.forEach((material, i) => {
       if (!GLOSSY.includes(material.type)) return;
+      if (material.type === "rough" || material.type === "plastic") {
+        const { values, ...numbers } = facetTable(material.roughness, material.ior);
+        material.facets = { array: `facets_${i}`, ...numbers };
+        arrays[material.facets.array] = { type: "f32", values };
+      }
       material.reflection = `reflection_${i}`;
       Object.assign(material, { thetas: THETAS, phis: 1 });
       arrays[material.reflection] = { type: "f32", components: 3, values: tableOf(material.made_up ?? { albedo: 0.4, tilt: 0 }) };

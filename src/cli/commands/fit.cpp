@@ -14,7 +14,6 @@
 #include "io/mesh/mesh_file.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
-#include "plot/canvas.h"
 #include "run/options.h"
 #include "run/schedule.h"
 #include "stilb/error.h"
@@ -23,7 +22,7 @@ namespace stilb::cli {
 namespace {
 
 struct FitRequest {
-    std::string mesh, output, plot;
+    std::string mesh, output, csv;
     std::string center = "auto", tolerance = "0.5%";
     int degree = 0;
     bool force = false, json = false, quiet = false;
@@ -59,11 +58,12 @@ fit::MeshFitOptions options_of(const FitRequest& request) {
 void check_outputs(const FitRequest& request) {
     const std::array<std::filesystem::path, 1> inputs{request.mesh};
     io::require_output(request.output, io::FileKind::series, inputs);
-    if (request.plot.empty()) return;
-    plot::require_picture_path(request.plot, inputs);
-    if (request.degree == 0)
+    if (request.csv.empty()) return;
+    if (!request.csv.ends_with(".csv")) {
         throw InputError(
-            "--plot draws errors from degree 1 on, but --degree is 0. Leave --plot out, or raise --degree.");
+            fmt::format("--csv {}: expected a name that ends with .csv", io::in_quotes(request.csv)));
+    }
+    io::require_output(request.csv, io::FileKind::other, inputs);
 }
 
 int run_fit(const FitRequest& request) {
@@ -88,7 +88,7 @@ int run_fit(const FitRequest& request) {
          fit.errors.back().rms / fit.size},
         request.output);
     report.mesh_bytes = std::filesystem::file_size(request.mesh);
-    if (!request.plot.empty()) draw_plot(error_plot(report), request.plot);
+    if (!request.csv.empty()) io::write_csv(error_columns(report), request.csv);
     if (!request.quiet) {
         for (const std::string& warning : warnings_of(report)) print_warning(warning);
     }
@@ -102,7 +102,7 @@ void add_fit(CommandLine& line) {
     Command command = line.add_command("fit", "Fit a surface by spherical harmonics to a star-shaped mesh");
     command.set_examples(
         "  stilb fit head.ply -o head.json --degree 32\n"
-        "  stilb fit head.ply -o head.json --degree 64 --plot error.svg\n"
+        "  stilb fit head.ply -o head.json --degree 64 --csv errors.csv\n"
         "  stilb fit vase.obj -o vase.json --degree 16 --center 0,0,0.4 --tolerance 2%\n"
         "  stilb fit monkey.obj -o monkey.json --degree 32 --force\n");
     auto request = std::make_shared<FitRequest>();
@@ -125,7 +125,7 @@ void add_fit(CommandLine& line) {
     command.add("--force", request->force,
                 "Accept a mesh that is not star-shaped: take its outermost surface, and close holes by "
                 "interpolation");
-    command.add("--plot", request->plot, "Draw the error over the degree (.svg, .png)").value_name("FILE");
+    command.add("--csv", request->csv, "Write also the errors of all degrees as CSV").value_name("FILE");
     command.add("--json", request->json, "One JSON document instead of the table (docs/fit.md)");
     command.add("--quiet", request->quiet, "No warnings on stderr");
     command.run([request] { return run_fit(*request); });

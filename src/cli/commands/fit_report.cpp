@@ -161,19 +161,15 @@ std::string to_json(const FitReport& report) {
     return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-plot::Plot error_plot(const FitReport& report) {
-    plot::Series rms{"root mean square", {}, {}}, maximum{"largest", {}, {}};
-    for (int degree = 1; degree <= report.degree(); ++degree) {
-        rms.x.push_back(degree);
-        rms.y.push_back(100 * report.rms_error(degree));
-        maximum.x.push_back(degree);
-        maximum.y.push_back(100 * report.largest_error(degree));
+std::vector<io::Column> error_columns(const FitReport& report) {
+    std::vector<double> degrees, coefficients, rms, maximum;
+    for (int degree = 0; degree <= report.degree(); ++degree) {
+        degrees.push_back(degree);
+        coefficients.push_back(static_cast<double>(math::harmonic_count(degree)));
+        rms.push_back(report.rms_error(degree));
+        maximum.push_back(report.largest_error(degree));
     }
-    plot::Plot plot{
-        fmt::format("Error of the series, {}", report.mesh.substr(report.mesh.find_last_of('/') + 1)),
-        {"degree", plot::ScaleType::logarithmic},
-        {{{"% of the size", plot::ScaleType::logarithmic}, {maximum, rms}}}};
-    return plot;
+    return {{"degree", degrees}, {"coefficients", coefficients}, {"rms", rms}, {"maximum", maximum}};
 }
 
 }  // namespace stilb::cli

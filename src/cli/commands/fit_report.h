@@ -1,4 +1,4 @@
-// The report of `stilb fit`: as text, as JSON and as a plot.
+// The report of `stilb fit`: as text, as JSON and as a table.
 #pragma once
 
 #include <cstdint>
@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fit/mesh_fit.h"
+#include "io/text/table.h"
 #include "math/spherical_harmonics.h"
-#include "plot/plot.h"
 
 namespace stilb::cli {
 
@@ -44,7 +44,7 @@ std::vector<std::string> warnings_of(const FitReport& report);
 std::string to_text(const FitReport& report);
 /// The document that docs/fit.md describes.
 std::string to_json(const FitReport& report);
-/// The errors over degrees 1 to the fit's degree, which must be 1 or more.
-plot::Plot error_plot(const FitReport& report);
+/// The errors of all degrees up to the fit's, as shares of the size.
+std::vector<io::Column> error_columns(const FitReport& report);
 
 }  // namespace stilb::cli

@@ -71,9 +71,12 @@ constexpr double kBrightShare = 0.9;
 constexpr double kBright = 0.65, kBrightest = 4;
 constexpr double kDarkestMedian = 0.12, kBrightestMedian = 0.36;
 
-std::uint8_t srgb_byte(double linear) {
-    const double encoded = linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055;
+std::uint8_t byte_of(double encoded) {
     return static_cast<std::uint8_t>(std::lround(255 * std::clamp(encoded, 0.0, 1.0)));
+}
+
+std::uint8_t srgb_byte(double linear) {
+    return byte_of(linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1 / 2.4) - 0.055);
 }
 
 /// Mixes the colour with grey until all components are within 0 to 1; the luminance stays.
@@ -199,6 +202,10 @@ Triple PrimariesConversion::operator()(const Triple& rgb) const {
         result[row] = rows_[row][0] * rgb[0] + rows_[row][1] * rgb[1] + rows_[row][2] * rgb[2];
     }
     return result;
+}
+
+std::array<std::uint8_t, 3> bytes_of(const Colour& colour) {
+    return {byte_of(colour.red), byte_of(colour.green), byte_of(colour.blue)};
 }
 
 }  // namespace stilb::io

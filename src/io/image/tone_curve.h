@@ -25,6 +25,9 @@ constexpr Colour with_alpha(Colour colour, double alpha) {
     return colour;
 }
 
+/// 0 to 255, without the alpha; components outside of 0 to 1 are cut off.
+std::array<std::uint8_t, 3> bytes_of(const Colour& colour);
+
 /// [Ottosson 2020, A perceptual color space for image processing]: lightness 0 (black) to 1 (white).
 struct Oklab {
     double lightness = 0, a = 0, b = 0;

@@ -70,6 +70,10 @@ void ImportSettings::apply_to(SceneFile& file) const {
     file.overrides = overrides_;
 }
 
+geometry::Transform ImportOptions::to_world(UpAxis usual) const {
+    return to_metres_and_z_up(scale.value_or(1), up.value_or(usual));
+}
+
 geometry::Transform to_metres_and_z_up(double scale, UpAxis up) {
     const geometry::Transform metres = geometry::Transform::scaling(scale);
     if (up == UpAxis::z) return metres;

@@ -21,6 +21,8 @@ struct ImportOptions {
     double light_scale = 1;       ///< factor on all light
     bool textures = false;        ///< surfaces show their textures; otherwise their mean colours
 
+    /// To metres with z upwards; `usual`: the axis that points upwards in files of the format.
+    geometry::Transform to_world(UpAxis usual) const;
     bool operator==(const ImportOptions&) const = default;
 };
 

@@ -173,22 +173,22 @@ SharedMesh::SharedMesh(ImportedMesh imported) {
 
 void ImportedScene::add_object(std::string_view name, ImportedMesh imported) {
     imported = simplified(std::move(imported));
-    if (!imported.places.empty()) {
-        const ObjectId id{static_cast<std::uint32_t>(file.scene.objects.size())};
-        textures_.places[id] = std::move(imported.places);
-    }
-    file.scene.objects.push_back(
-        {objects_.make(name, "object"), std::move(imported.mesh), std::move(imported.materials)});
+    const ObjectId id = add_object(name, std::move(imported.mesh), std::move(imported.materials));
+    if (!imported.places.empty()) textures_.places[id] = std::move(imported.places);
+}
+
+ObjectId ImportedScene::add_object(std::string_view name, Shape shape, SharedList<MaterialId> materials) {
+    file.scene.objects.push_back({objects_.make(name, "object"), std::move(shape), std::move(materials)});
+    return ObjectId{static_cast<std::uint32_t>(file.scene.objects.size() - 1)};
 }
 
 void ImportedScene::add_instance(std::string_view name, const SharedMesh& shared,
                                  const geometry::Transform& to_world) {
-    file.scene.objects.push_back(
-        {objects_.make(name, "object"), Instance{shared.mesh, to_world}, shared.materials});
+    add_object(name, Instance{shared.mesh, to_world}, shared.materials);
 }
 
-void ImportedScene::add_light(std::string_view name, lights::LightSource source) {
-    file.scene.lights.push_back({lights_.make(name, "light"), std::move(source)});
+void ImportedScene::add_light(std::string_view name, lights::LightSource source, std::string_view group) {
+    file.scene.lights.push_back({lights_.make(name, "light"), std::move(source), std::string(group)});
 }
 
 void ImportedScene::add_sensor(std::string_view name, sensors::SensorKind kind) {
@@ -240,7 +240,7 @@ void ImportedScene::light_faces(ObjectId id) {
     }
 }
 
-void ImportedScene::warn_of_units() {
+void ImportedScene::warn_of_units(double light_scale) {
     const Bounds bounds = bounds_of(file.scene);
     const double longest_m = 2 * bounds.half_extent();
     if (!file.scene.objects.empty() && (longest_m < kSmallestScene_m || longest_m > kLargestScene_m)) {
@@ -254,7 +254,7 @@ void ImportedScene::warn_of_units() {
         has_daylight = has_daylight || location_of(light) == LightLocation::infinity;
     for (const Light& light : file.scene.lights) {
         if (has_daylight) return;
-        const double flux_lm = scene::flux_lm(file.scene, light).luminance();
+        const double flux_lm = light_scale * scene::flux_lm(file.scene, light).luminance();
         if (flux_lm >= kFaintestLamp_lm) continue;
         warnings.add(
             "light", fmt::format("{} ({:.3g} lm)", light.name, flux_lm),
@@ -263,7 +263,7 @@ void ImportedScene::warn_of_units() {
     }
 }
 
-SceneFile ImportedScene::finish(const ImportSettings& settings) && {
+void ImportedScene::settle_faces(const ImportSettings& settings) {
     // Holes matter by their area, not by their outlines.
     constexpr TextureLimits of_holes{20'000, 400'000};
     apply_textures(file.scene, textures_, materials_, remarks_, warnings,
@@ -275,9 +275,12 @@ SceneFile ImportedScene::finish(const ImportSettings& settings) && {
         throw InputError("the scene has no surface: there is nothing to light.", {file.sources[0].string()});
     for (std::uint32_t i = 0; i < count; ++i) light_faces(ObjectId{i});
     std::ranges::move(scene::settle_glass(file.scene), std::back_inserter(file.warnings));
+    warn_of_units(settings.options().light_scale);
+}
+
+SceneFile ImportedScene::finish(const ImportSettings& settings) && {
     scene::put_lamps_in_front(file.scene);
     settings.scale_lights(file);
-    warn_of_units();
     if (file.scene.lights.empty()) note(kNoLight, WarningKind::no_light);
     const std::string prefix = file.sources[0].string() + ": ";
     for (const std::string& warning : warnings.list()) file.warnings.push_back(prefix + warning);

@@ -70,19 +70,23 @@ class ImportedScene {
     /// Shows the texture on the faces of a material that have a place in it.
     void set_texture(MaterialId material, FaceTexture texture);
     void add_object(std::string_view name, ImportedMesh imported);
+    ObjectId add_object(std::string_view name, Shape shape, SharedList<MaterialId> materials);
     void add_instance(std::string_view name, const SharedMesh& shared, const geometry::Transform& to_world);
-    void add_light(std::string_view name, lights::LightSource source);
+    void add_light(std::string_view name, lights::LightSource source, std::string_view group = {});
     void add_sensor(std::string_view name, sensors::SensorKind kind);
 
-    /// The scene, after faces with textures became small faces, and shining faces became lights. Scales all
-    /// light, applies the settings and warns of unlikely sizes and units.
+    /// Does what formats of modellers need: faces with textures become small faces, shining faces become
+    /// lights, and glass gets the media of its two sides. Warns of unlikely sizes and units. Throws
+    /// InputError where there is no surface.
+    void settle_faces(const ImportSettings& settings);
+    /// The scene, with all light scaled and the settings applied.
     SceneFile finish(const ImportSettings& settings) &&;
 
   private:
     void light_faces(ObjectId object);
     void light_triangles(ObjectId object, MaterialId material, std::vector<std::uint32_t> triangles,
                          const Emission& emission);
-    void warn_of_units();
+    void warn_of_units(double light_scale);
 
     std::map<MaterialId, Emission> emissions_;
     SceneTextures textures_;

@@ -44,7 +44,7 @@ SceneFile load_scene(const std::filesystem::path& path, std::span<const std::str
 geometry::Transform placement_beside(const std::filesystem::path& path,
                                      std::span<const std::string> overrides) {
     if (overrides.empty() || kind_of_file(path) != FileKind::radiance_scene) return {};
-    return radiance::placement_of(ImportSettings(overrides, path.string()).options()).transform();
+    return ImportSettings(overrides, path.string()).options().to_world(UpAxis::z);
 }
 
 }  // namespace stilb::io

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <span>
 #include <stdexcept>
@@ -14,8 +15,10 @@
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 #include "estimators/patch_light/solution/light_vertices.h"
 #include "estimators/patch_light/solution/reflection_table.h"
+#include "io/image/colour_map.h"
 #include "io/text/compression.h"
 #include "io/text/text.h"
+#include "materials/model_list.h"
 #include "run/solution_errors.h"
 #include "scene/light_groups.h"
 #include "walk/data/container.h"
@@ -107,6 +110,15 @@ std::vector<bool> sides_with_light(const patches::Patches& patches, const LightV
     return carries;
 }
 
+/// sRGB at even steps of the scale, from the least to the most.
+WalkJson false_colours_json() {
+    const io::ColourMap map;
+    WalkJson list = WalkJson::array();
+    for (std::size_t i = 0; i < io::ColourMap::kSamples; ++i)
+        list.push_back(io::bytes_of(map.at(static_cast<double>(i) / (io::ColourMap::kSamples - 1))));
+    return list;
+}
+
 /// Arrays and header of a scene.
 class SceneContainer {
   public:
@@ -128,6 +140,7 @@ class SceneContainer {
                         {"file", walk_.file},
                         {"degree", solution_.degree},
                         {"bounds", bounds_json(mesh)}};
+        header["false_colours"] = false_colours_json();
         header["materials"] = materials_json();
         header["objects"] = names_json(scene_.objects, [](const Object& object) { return object.name; });
         header["groups"] = names_json(solution_.groups, [](const std::string& name) { return name; });
@@ -197,6 +210,7 @@ class SceneContainer {
             json["reflection"] = nullptr;
             if (!estimators::reflects_alike(material))
                 add_table(material, fmt::format("reflection_{}", i), json);
+            add_facets(material, json);
             list.push_back(std::move(json));
         }
         return list;
@@ -211,6 +225,23 @@ class SceneContainer {
         json["reflection"] = name;
         json["thetas"] = table.thetas;
         json["phis"] = table.phis;
+    }
+
+    /// Materials that differ in their colours alone share a table.
+    void add_facets(const Material& material, WalkJson& json) {
+        const auto add = [&]<typename M>(const M& model) {
+            if constexpr (requires { model.facet_table(); }) {
+                const materials::AlbedoTable& table = model.facet_table();
+                const std::vector<float> values(table.values().begin(), table.values().end());
+                const auto [entry, is_new] =
+                    facet_arrays_.try_emplace(values, fmt::format("facets_{}", facet_arrays_.size()));
+                if (is_new) arrays_.push_back(make_array(entry->second, 1, std::span<const float>(values)));
+                json["facets"] = {{"array", entry->second},
+                                  {"cells_per_log", table.cells_per_log()},
+                                  {"average", table.average()}};
+            }
+        };
+        materials::visit_model(add, material);
     }
 
     WalkJson lights_json() {
@@ -251,6 +282,7 @@ class SceneContainer {
     const WalkScene& walk_;
     LightVertices light_;
     std::vector<ContainerArray> arrays_;
+    std::map<std::vector<float>, std::string> facet_arrays_;
 };
 
 // The page.

@@ -20,6 +20,14 @@ export interface MaterialEntry {
   rotation?: number;
   ior?: number;
   internal_transmittance?: number | Rgb;
+  facets?: { array: string; cells_per_log: number; average: number };
+}
+
+/** A share of light, tabulated evenly in log(1 + cosine / roughness), and its mean under light from everywhere. */
+export interface CosineTable {
+  values: Float32Array;
+  average: number;
+  cellsPerLog: number;
 }
 
 export interface LightEntry {
@@ -64,6 +72,8 @@ export interface SceneHeader {
   file: string;
   degree: number;
   bounds: { min: Vec3; max: Vec3 };
+  /** sRGB at even steps of the scale, from the least to the most. */
+  false_colours: Rgb[];
   materials: MaterialEntry[];
   objects: { name: string }[];
   groups: { name: string }[];
@@ -103,6 +113,8 @@ export class Scene {
   readonly lightTerms: Uint32Array;
   readonly lightPoints: Float32Array;
   readonly reflections: (Float32Array | null)[];
+  /** Of each material whose facets have one. */
+  readonly facets: (CosineTable | null)[];
   /** The mesh of each vertex; a vertex belongs to one material. */
   readonly meshOfVertex: Uint32Array;
 
@@ -126,6 +138,11 @@ export class Scene {
     this.lightPoints = container.floats("light_points");
     this.reflections = this.header.materials.map((material) =>
       material.reflection ? container.floats(material.reflection) : null,
+    );
+    this.facets = this.header.materials.map(({ facets }) =>
+      facets
+        ? { values: container.floats(facets.array), average: facets.average, cellsPerLog: facets.cells_per_log }
+        : null,
     );
     this.meshOfVertex = this.findMeshes();
   }

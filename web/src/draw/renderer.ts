@@ -19,7 +19,7 @@ export class Renderer {
   private readonly frame: THREE.WebGLRenderTarget;
   private readonly sum: THREE.WebGLRenderTarget;
   private readonly mirrors: Mirrors;
-  private readonly tone = new ToneMapping();
+  private readonly tone: ToneMapping;
   private readonly statistics = new PictureStatistics();
   private readonly average = copyPass();
   private readonly floatType: THREE.TextureDataType;
@@ -41,6 +41,7 @@ export class Renderer {
     extent: number,
   ) {
     this.gl = newRenderer(canvas);
+    this.tone = new ToneMapping(surfaces.scene.header.false_colours);
     this.camera.far = Math.max(100, 4 * extent);
     this.floatType = bestFloatType(this.gl);
     this.frame = pictureTarget(this.floatType, true);

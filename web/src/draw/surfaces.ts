@@ -176,7 +176,7 @@ export class Surfaces {
   }
 
   private glossyMaterial(index: number, slots: number[], levels: LampLevel[]): THREE.RawShaderMaterial {
-    const model = this.models.get(index) ?? modelOf(this.scene.header.materials[index]!);
+    const model = this.models.get(index) ?? modelOf(this.scene.header.materials[index]!, this.scene.facets[index]!);
     this.models.set(index, model);
     const points = levels.flatMap((level) => this.lamps.pointsOf(level));
     const uniforms: Record<string, THREE.IUniform> = {

@@ -2,7 +2,7 @@
 
 import * as THREE from "three";
 
-import { COLOUR_MAP } from "./colour_map";
+import type { Rgb } from "../data/scene";
 import { fractionOf, type Scale, ticksOf } from "./scale";
 
 export const CURVES = ["reinhard", "aces", "linear"] as const;
@@ -189,7 +189,7 @@ export function scaledPass(): FullScreen {
 export class ToneMapping {
   private readonly uniforms: Record<string, THREE.IUniform> = {
     uPicture: { value: null },
-    uColours: { value: colourTexture() },
+    uColours: { value: null },
     uExposure: { value: 1 },
     uCurve: { value: 0 },
     uLevelCount: { value: 0 },
@@ -201,6 +201,10 @@ export class ToneMapping {
   };
   private readonly colours = new FullScreen(FRAGMENT, this.uniforms);
   private readonly falseColours = new FullScreen(FRAGMENT, this.uniforms, { FALSE_COLOUR: 1 });
+
+  constructor(falseColours: Rgb[]) {
+    this.uniforms.uColours!.value = colourTexture(falseColours);
+  }
 
   /** To the screen, pixel by pixel. */
   draw(renderer: THREE.WebGLRenderer, picture: THREE.WebGLRenderTarget, display: Display) {
@@ -227,9 +231,9 @@ export class ToneMapping {
   }
 }
 
-function colourTexture(): THREE.DataTexture {
-  const bytes = Uint8Array.from(COLOUR_MAP.flatMap(([r, g, b]) => [r, g, b, 255]));
-  const texture = new THREE.DataTexture(bytes, COLOUR_MAP.length, 1, THREE.RGBAFormat);
+function colourTexture(colours: Rgb[]): THREE.DataTexture {
+  const bytes = Uint8Array.from(colours.flatMap(([r, g, b]) => [r, g, b, 255]));
+  const texture = new THREE.DataTexture(bytes, colours.length, 1, THREE.RGBAFormat);
   texture.magFilter = THREE.LinearFilter;
   texture.minFilter = THREE.LinearFilter;
   texture.needsUpdate = true;

@@ -5,8 +5,7 @@
 //   lobe(L)             [1/sr], for every point of a light
 //   smoothPart(L)       [1/sr], for the middle of a light: varies slowly with direction
 
-import type { MaterialEntry } from "../data/scene";
-import { type CosineTable, lossTable, transmissionTable } from "./ggx";
+import type { CosineTable, MaterialEntry } from "../data/scene";
 import { rgbOf } from "./surface";
 
 export interface Model {
@@ -123,37 +122,38 @@ vec3 smoothPart(vec3 L) { return uBase * (tableAt(dot(N, L)) * throughV / (PI * 
 /** From here on, the power goes by a series, which ends at 1 - cos = 0.3: less than 1e-30 is left there. */
 const SHARP_EXPONENT = 200;
 
-const MODELS: Record<string, (material: MaterialEntry) => Omit<Model, "name">> = {
+type Parameters = Omit<Model, "name" | "table">;
+
+const MODELS: Record<string, (material: MaterialEntry, table: CosineTable) => Parameters> = {
   phong: (material) => {
     const { exponent = 1 } = material;
     const glsl = exponent > SHARP_EXPONENT ? `#define SHARP\n${PHONG}` : PHONG;
-    return { glsl, parameters: { ...shares(material), uExponent: exponent }, table: null };
+    return { glsl, parameters: { ...shares(material), uExponent: exponent } };
   },
   ward: (material) => {
     const angle = ((material.rotation ?? 0) * Math.PI) / 180;
     const uTurn = [Math.cos(angle), Math.sin(angle)];
     const { roughness = 0.1 } = material;
     const uRoughness = Array.isArray(roughness) ? roughness : [roughness, roughness];
-    return { glsl: WARD, parameters: { ...shares(material), uRoughness, uTurn }, table: null };
+    return { glsl: WARD, parameters: { ...shares(material), uRoughness, uTurn } };
   },
-  rough: (material) => {
-    const table = lossTable(alphaOf(material));
+  rough: (material, table) => {
     const uReflectance = rgbOf(material.reflectance);
     const lost = table.average;
     const uMultiple = uReflectance.map((r) => (r * r * (1 - lost)) / (1 - r * lost));
-    return { glsl: ROUGH, parameters: { ...facetParameters(material, table), uReflectance, uMultiple }, table };
+    return { glsl: ROUGH, parameters: { ...facetParameters(material, table), uReflectance, uMultiple } };
   },
-  plastic: (material) => {
+  plastic: (material, table) => {
     const uIor = material.ior ?? 1.5;
-    const table = transmissionTable(alphaOf(material), uIor);
     const within = 1 - table.average / (uIor * uIor);
     const uBase = rgbOf(material.diffuse).map((share) => (share * (1 - within)) / (1 - share * within));
-    return { glsl: PLASTIC, parameters: { ...facetParameters(material, table), uIor, uBase }, table };
+    return { glsl: PLASTIC, parameters: { ...facetParameters(material, table), uIor, uBase } };
   },
 };
 
-export function modelOf(material: MaterialEntry): Model {
-  return { name: material.type, ...MODELS[material.type]!(material) };
+/** `table`: that of its facets, if it has any. */
+export function modelOf(material: MaterialEntry, table: CosineTable | null): Model {
+  return { name: material.type, table, ...MODELS[material.type]!(material, table!) };
 }
 
 function shares(material: MaterialEntry) {

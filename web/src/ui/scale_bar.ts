@@ -1,15 +1,16 @@
 // The bar of the false colours with round numbers.
 
 import type { Walkthrough } from "../app";
-import { COLOUR_MAP } from "../draw/colour_map";
+import type { Rgb } from "../data/scene";
 import { fractionOf, ticksOf } from "../draw/scale";
 import { BAR_TICKS } from "../draw/tone";
 import { byId, element } from "./dom";
 
 export function scaleBar(walk: Walkthrough) {
   const place = byId("scale");
-  const bar = element("canvas", { width: "1", height: `${COLOUR_MAP.length}`, "aria-hidden": "true" });
-  paint(bar);
+  const colours = walk.scene.header.false_colours;
+  const bar = element("canvas", { width: "1", height: `${colours.length}`, "aria-hidden": "true" });
+  paint(bar, colours);
   const labels = element("ol", {});
   place.append(element("p", {}, "cd/m²"), element("div", { class: "scale-body" }, bar, labels));
   const refresh = () => {
@@ -27,10 +28,10 @@ export function scaleBar(walk: Walkthrough) {
   refresh();
 }
 
-function paint(bar: HTMLCanvasElement) {
+function paint(bar: HTMLCanvasElement, colours: Rgb[]) {
   const context = bar.getContext("2d")!;
-  COLOUR_MAP.forEach(([r, g, b], i) => {
+  colours.forEach(([r, g, b], i) => {
     context.fillStyle = `rgb(${r} ${g} ${b})`;
-    context.fillRect(0, COLOUR_MAP.length - 1 - i, 1, 1);
+    context.fillRect(0, colours.length - 1 - i, 1, 1);
   });
 }

@@ -138,8 +138,7 @@ SceneFile read_gltf_scene(std::string_view content, const std::filesystem::path&
     ImportedScene scene(path);
     check_extensions(file, scene);
     const ImportOptions& options = settings.options();
-    const std::vector<gltf::PlacedNode> nodes =
-        placed_nodes(file, to_metres_and_z_up(options.scale.value_or(1), options.up.value_or(UpAxis::y)));
+    const std::vector<gltf::PlacedNode> nodes = placed_nodes(file, options.to_world(UpAxis::y));
     {
         // A texture divides the surfaces of each node on its own.
         const auto repeats = options.textures ? gltf::Repeats::copies : gltf::Repeats::instances;
@@ -151,6 +150,7 @@ SceneFile read_gltf_scene(std::string_view content, const std::filesystem::path&
     add_cameras(file, nodes, scene);
     auto& sources = scene.file.sources;
     sources.insert(sources.end(), file.sources.begin(), file.sources.end());
+    scene.settle_faces(settings);
     return std::move(scene).finish(settings);
 }
 

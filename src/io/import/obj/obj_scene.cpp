@@ -367,6 +367,7 @@ SceneFile read_obj_scene(const fs::path& path, std::span<const std::string> over
         places = std::move(library).places();
     }
     add_groups(std::move(mesh), materials, places, scene);
+    scene.settle_faces(settings);
     return std::move(scene).finish(settings);
 }
 

@@ -23,11 +23,11 @@ constexpr int kDeepest = 64;
 /// Reads files, carries out their commands, and collects the primitives.
 class Reader {
   public:
-    Reader(const Limits& limits, const Placement& placement)
+    Reader(const ImportOptions& options, const Limits& limits)
         : limits_(limits), collector_(description_, limits) {
         Xform xform;
-        xform.transform = placement.transform();
-        xform.scale = placement.metres_per_unit;
+        xform.transform = options.to_world(UpAxis::z);
+        xform.scale = options.scale.value_or(1);
         collector_.set_xform(xform);
     }
 
@@ -147,12 +147,14 @@ class Reader {
 
     // Commands
 
-    /// Calls `read`, whose errors get a place.
+    /// Calls `read`, whose errors get the place, unless they have it already.
     template <typename Read>
     auto at(const Place& place, const Read& read) const -> decltype(read()) {
         try {
             return read();
         } catch (const InputError& error) {
+            const std::string known = InputError("", description_.where(place)).what();
+            if (std::string_view(error.what()).starts_with(known)) throw;
             fail(error.what(), place);
         }
     }
@@ -173,7 +175,7 @@ class Reader {
         if (last.front() == "cat") {
             for (const std::string& name : arguments) include(name, place);
         } else if (last.front() == "genbox") {
-            placed(place, [&] { run_genbox(arguments, place, collector_); });
+            at(place, [&] { run_genbox(arguments, place, collector_); });
         } else if (last.front() == "gensky") {
             read_output(at(place, [&] { return gensky(arguments); }), place);
         } else {
@@ -183,18 +185,6 @@ class Reader {
                             "!cat FILE.",
                             in_quotes(last.front())),
                 place);
-        }
-    }
-    /// The errors of programs have no place, those of the collector have one already.
-    template <typename Run>
-    void placed(const Place& place, const Run& run) const {
-        try {
-            run();
-        } catch (const InputError& error) {
-            const std::string known = InputError("", description_.where(place)).what();
-            const std::string message = error.what();
-            if (message.starts_with(known)) throw;
-            fail(message, place);
         }
     }
 
@@ -280,9 +270,9 @@ std::vector<std::filesystem::path> library_folders(const std::string& name) {
 }  // namespace
 
 Description read_description(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder, const Limits& limits,
-                             const Placement& placement) {
-    Reader reader(limits, placement);
+                             const std::filesystem::path& folder, const ImportOptions& options,
+                             const Limits& limits) {
+    Reader reader(options, limits);
     reader.read(text, name, folder);
     return std::move(reader).take();
 }

@@ -61,24 +61,12 @@ struct Limits {
     std::size_t primitives = 50'000'000;
 };
 
-/// The turn of a scene whose y axis, or whose z axis, points upwards, and its scale to metres.
-struct Placement {
-    double metres_per_unit = 1;
-    UpAxis up = UpAxis::z;
-
-    geometry::Transform transform() const { return to_metres_and_z_up(metres_per_unit, up); }
-};
-
-/// In metres with z upwards where the options do not say otherwise.
-inline Placement placement_of(const ImportOptions& options) {
-    return {options.scale.value_or(1), options.up.value_or(UpAxis::z)};
-}
-
 /// Reads a description and all files that it includes. `name` is that of the file in messages, `folder` the
-/// base of its file names. Throws InputError with file and line.
+/// base of its file names. Its lengths are metres with z upwards where the options do not say otherwise.
+/// Throws InputError with file and line.
 Description read_description(std::string_view text, const std::string& name,
-                             const std::filesystem::path& folder, const Limits& limits = {},
-                             const Placement& placement = {});
+                             const std::filesystem::path& folder, const ImportOptions& options = {},
+                             const Limits& limits = {});
 
 /// The file of this name: as it is where it is absolute, else in the folder of the file that names it, in
 /// that of the scene, or in those of the environment variable RAYPATH. Throws InputError where there is none.

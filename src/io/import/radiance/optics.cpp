@@ -318,7 +318,7 @@ void OpticsReader::note_patterns(const std::vector<std::size_t>& patterns, Optic
         if (optics.kind == Optics::Kind::lamp) {
             if (own.type == "brightdata") {
                 optics.lamp.patterns.push_back(pattern);
-            } else if (auto sky = SkyPattern::read(own, description_)) {
+            } else if (auto sky = read_sky_pattern(own, description_)) {
                 optics.lamp.skies.push_back(*sky);
             } else {
                 warnings_.add(

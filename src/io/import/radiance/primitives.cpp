@@ -28,12 +28,11 @@ constexpr std::array kSurfaceTypes{
     SurfaceType{"source", SurfaceKind::source, SurfaceKind::source, 4},
     SurfaceType{"mesh", SurfaceKind::mesh, SurfaceKind::mesh, kMeshTriangleNumbers}};
 
-constexpr std::array<std::string_view, 26> kMaterialTypes{
+constexpr std::array<std::string_view, 28> kMaterialTypes{
     "plastic",   "metal",     "trans",      "plastic2", "metal2",  "trans2",    "ashik2",
     "glass",     "mirror",    "light",      "glow",     "illum",   "spotlight", "dielectric",
     "interface", "mist",      "antimatter", "plasfunc", "metfunc", "transfunc", "plasdata",
-    "metdata",   "transdata", "BRTDfunc",   "BSDF",     "aBSDF"};
-constexpr std::array<std::string_view, 2> kPrisms{"prism1", "prism2"};
+    "metdata",   "transdata", "BRTDfunc",   "BSDF",     "aBSDF",   "prism1",    "prism2"};
 constexpr std::array<std::string_view, 16> kPatternTypes{
     "brightdata", "brightfunc", "brighttext", "colordata", "colorfunc", "colorpict", "colortext", "texdata",
     "texfunc",    "mixdata",    "mixfunc",    "mixpict",   "mixtext",   "spectrum",  "specfile",  "specfunc"};
@@ -179,14 +178,12 @@ std::vector<std::string_view> type_names() {
     std::vector<std::string_view> names{"alias", "instance"};
     for (const SurfaceType& type : kSurfaceTypes) names.push_back(type.name);
     names.insert(names.end(), kMaterialTypes.begin(), kMaterialTypes.end());
-    names.insert(names.end(), kPrisms.begin(), kPrisms.end());
     names.insert(names.end(), kPatternTypes.begin(), kPatternTypes.end());
     return names;
 }
 
 bool is_material(std::string_view type) {
-    return std::ranges::find(kMaterialTypes, type) != kMaterialTypes.end() ||
-           std::ranges::find(kPrisms, type) != kPrisms.end();
+    return std::ranges::find(kMaterialTypes, type) != kMaterialTypes.end();
 }
 
 void Collector::count(const Place& place) const {
@@ -213,13 +210,10 @@ std::optional<std::size_t> Collector::find(const std::string& name, const Place&
         description_.where(place));
 }
 
-std::size_t Collector::add_modifier(Modifier modifier) {
+void Collector::add_modifier(Modifier modifier) {
     count(modifier.place);
-    transform_arguments(modifier, xform_);
-    const std::size_t index = description_.modifiers.size();
-    latest_[modifier.name] = index;
+    latest_[modifier.name] = description_.modifiers.size();
     description_.modifiers.push_back(std::move(modifier));
-    return index;
 }
 
 void Collector::add_alias(const Primitive& primitive) {
@@ -232,13 +226,11 @@ void Collector::add_alias(const Primitive& primitive) {
         return;
     }
     // The material of the target with another modifier. Its frame is final already.
-    count(primitive.place);
     Modifier copy = of_target;
     copy.name = primitive.name;
     copy.modifier = find(primitive.modifier, primitive.place);
     copy.place = primitive.place;
-    latest_[primitive.name] = description_.modifiers.size();
-    description_.modifiers.push_back(std::move(copy));
+    add_modifier(std::move(copy));
 }
 
 void Collector::add_surface(SurfaceKind kind, const std::string& name, std::optional<std::size_t> modifier,
@@ -272,13 +264,15 @@ void Collector::add(Primitive primitive) {
                                primitive.place);
         }
         default:
-            add_modifier({std::move(primitive.type),
-                          std::move(primitive.name),
-                          std::move(primitive.texts),
-                          std::move(primitive.numbers),
-                          find(primitive.modifier, primitive.place),
-                          {},
-                          primitive.place});
+            Modifier modifier{std::move(primitive.type),
+                              std::move(primitive.name),
+                              std::move(primitive.texts),
+                              std::move(primitive.numbers),
+                              find(primitive.modifier, primitive.place),
+                              {},
+                              primitive.place};
+            transform_arguments(modifier, xform_);
+            add_modifier(std::move(modifier));
     }
 }
 

@@ -41,8 +41,6 @@ class Collector {
     /// The same with a modifier that is known by its index.
     void add_surface(SurfaceKind kind, const std::string& name, std::optional<std::size_t> modifier,
                      std::vector<double> numbers, const Place& place);
-    /// Adds a modifier, whose own modifier is known by its index; returns its own index.
-    std::size_t add_modifier(Modifier modifier);
     /// The latest modifier of this name; none for "void". Throws InputError where there is none.
     std::optional<std::size_t> find(const std::string& name, const Place& place) const;
 
@@ -53,6 +51,7 @@ class Collector {
 
   private:
     void add_alias(const Primitive& primitive);
+    void add_modifier(Modifier modifier);
     void count(const Place& place) const;
 
     Description& description_;

@@ -16,7 +16,8 @@ namespace stilb::io {
 SceneFile read_radiance_scene(const std::filesystem::path& path, std::span<const std::string> overrides = {});
 /// The same for content in memory; `folder` is the base of its file names, `name` is used in messages.
 SceneFile read_radiance_scene(std::string_view text, const std::string& name,
-                              const std::filesystem::path& folder, const radiance::Limits& limits = {},
-                              const radiance::Placement& placement = {});
+                              const std::filesystem::path& folder,
+                              std::span<const std::string> overrides = {},
+                              const radiance::Limits& limits = {});
 
 }  // namespace stilb::io

@@ -12,19 +12,9 @@
 namespace stilb::io::radiance {
 namespace {
 
-/// Sky and ground melt together within some degrees of the horizon.
-double blended(double z, double sky, double ground) {
-    const double weight = std::pow(z + 1.01, 10);
-    return (weight * sky + ground / weight) / (weight + 1 / weight);
-}
-
-double angle_of_cosine(double cosine) { return std::acos(std::clamp(cosine, -1.0, 1.0)); }
-
-}  // namespace
-
-class SkyPattern::Reader {
+class SkyReader {
   public:
-    Reader(const Modifier& modifier, const Description& description)
+    SkyReader(const Modifier& modifier, const Description& description)
         : modifier_(modifier), description_(description) {}
 
     std::optional<SkyPattern> read() && {
@@ -55,9 +45,9 @@ class SkyPattern::Reader {
     }
     void read_sun(std::size_t first) {
         const std::vector<double>& n = modifier_.numbers;
-        pattern_.sun_ = {n[first], n[first + 1], n[first + 2]};
-        if (!(length(pattern_.sun_) > 0)) fail("the direction of the sun is 0 0 0. Allowed: any other.");
-        pattern_.sun_ = normalized(pattern_.sun_);
+        const Vec3 sun{n[first], n[first + 1], n[first + 2]};
+        if (!(length(sun) > 0)) fail("the direction of the sun is 0 0 0. Allowed: any other.");
+        pattern_.sky.sun = normalized(sun);
     }
     void read_cie_sky() {
         expect_numbers(3);
@@ -68,20 +58,20 @@ class SkyPattern::Reader {
                 "(intermediate).",
                 n[0]));
         }
-        pattern_.sky_ = static_cast<Sky>(static_cast<int>(n[0]) - 1);
-        pattern_.zenith_ = n[1], pattern_.ground_ = n[2];
-        if (pattern_.sky_ == Sky::overcast || pattern_.sky_ == Sky::uniform) return;
+        pattern_.sky.type = kSkiesOfGensky[static_cast<std::size_t>(n[0]) - 1];
+        pattern_.sky.zenith = n[1], pattern_.ground = n[2];
+        if (!lights::depends_on_sun(pattern_.sky.type)) return;
         expect_numbers(7);
-        pattern_.normalization_ = n[3];
         if (!(n[3] > 0)) fail("the fourth number, which divides the brightness, is not above 0.");
+        pattern_.sky.zenith_value = n[3];
         read_sun(4);
     }
     void read_perez_sky() {
         expect_numbers(10);
         const std::vector<double>& n = modifier_.numbers;
-        pattern_.sky_ = Sky::perez;
-        pattern_.zenith_ = n[0], pattern_.ground_ = n[1];
-        std::copy_n(n.begin() + 2, 5, pattern_.coefficients_.begin());
+        pattern_.sky.type = lights::SkyType::perez;
+        pattern_.sky.zenith = n[0], pattern_.ground = n[1];
+        std::copy_n(n.begin() + 2, 5, pattern_.sky.perez.begin());
         read_sun(7);
     }
     void read_axes() {
@@ -90,9 +80,7 @@ class SkyPattern::Reader {
         if (read_transforms(transforms, own) != transforms.size())
             fail("the texts behind the file are not all transforms.");
         const geometry::Transform frame = compose(modifier_.frame, own.transform);
-        pattern_.x_axis_ = normalized(frame.x_axis);
-        pattern_.y_axis_ = normalized(frame.y_axis);
-        pattern_.z_axis_ = normalized(frame.z_axis);
+        pattern_.axes = {normalized(frame.x_axis), normalized(frame.y_axis), normalized(frame.z_axis)};
     }
 
     const Modifier& modifier_;
@@ -100,42 +88,17 @@ class SkyPattern::Reader {
     SkyPattern pattern_;
 };
 
-std::optional<SkyPattern> SkyPattern::read(const Modifier& modifier, const Description& description) {
-    return Reader(modifier, description).read();
-}
+}  // namespace
 
-double SkyPattern::above_horizon(double z, double to_sun_cosine) const {
-    const double to_sun = angle_of_cosine(to_sun_cosine);
-    switch (sky_) {
-        case Sky::clear: {  // CIE, after Kittler
-            const double circumsolar =
-                0.91 + 10 * std::exp(-3 * to_sun) + 0.45 * to_sun_cosine * to_sun_cosine;
-            return zenith_ * circumsolar * (z > 0.01 ? 1 - std::exp(-0.32 / z) : 1) / normalization_;
-        }
-        case Sky::overcast:  // CIE, after Moon and Spencer
-            return zenith_ * (1 + 2 * z) / 3;
-        case Sky::uniform:
-            return zenith_;
-        case Sky::intermediate: {  // after Matsuura
-            const double from_zenith = angle_of_cosine(z), of_sun = angle_of_cosine(sun_.z);
-            const double height =
-                (1.35 * std::sin(5.631 - 3.59 * from_zenith) + 3.12) * std::sin(4.396 - 2.6 * of_sun) + 6.37 -
-                from_zenith;
-            return zenith_ * height / 2.326 *
-                   std::exp(-0.563 * to_sun * ((2.629 - from_zenith) * (1.562 - of_sun) + 0.812)) /
-                   normalization_;
-        }
-        case Sky::perez:
-            break;
-    }
-    const auto& [a, b, c, d, e] = coefficients_;
-    return zenith_ * (1 + a * std::exp(b / std::max(z, 0.01))) *
-           (1 + c * std::exp(d * to_sun) + e * to_sun_cosine * to_sun_cosine);
+std::optional<SkyPattern> read_sky_pattern(const Modifier& modifier, const Description& description) {
+    return SkyReader(modifier, description).read();
 }
 
 double SkyPattern::factor(const Vec3& direction) const {
-    const Vec3 w{dot(direction, x_axis_), dot(direction, y_axis_), dot(direction, z_axis_)};
-    const double value = blended(w.z, above_horizon(w.z, dot(w, sun_)), ground_);
+    const Vec3 w = axes.to_local(direction);
+    // Sky and ground melt together within some degrees of the horizon.
+    const double weight = std::pow(w.z + 1.01, 10);
+    const double value = (weight * sky.towards(w) + ground / weight) / (weight + 1 / weight);
     return std::isfinite(value) ? std::max(value, 0.0) : 0;
 }
 

@@ -3,15 +3,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "plot/plot.h"
+#include "papers/plot.h"
 #include "stilb/error.h"
 #include "support/picture_pixels.h"
 #include "support/test_folder.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 namespace {
 
-PngPixels draw(const PolarPlot& plot) {
+PngPixels drawn_polar(const PolarPlot& plot) {
     const TestFolder folder;
     const auto path = folder / "a.png";
     draw_polar_plot(plot, path);
@@ -26,7 +26,7 @@ Spot polar_marker_at(double theta_deg, double value) {
         series.marker = MarkerStyle::circle;
         return series;
     };
-    return find_colour(draw({"", "", {points(theta_deg, value), points(-45, 10)}}), palette_colour(0));
+    return find_colour(drawn_polar({"", "", {points(theta_deg, value), points(-45, 10)}}), palette_colour(0));
 }
 
 constexpr double kRadius = 620;  // in pixels
@@ -50,7 +50,7 @@ TEST(PolarPlot, EqualValuesAreAnArc) {
         series.x.push_back(theta_deg);
         series.y.push_back(5);
     }
-    const Spot arc = find_colour(draw({"", "", {series, {"", {0}, {10}}}}), palette_colour(0));
+    const Spot arc = find_colour(drawn_polar({"", "", {series, {"", {0}, {10}}}}), palette_colour(0));
     EXPECT_NEAR(arc.right - arc.left, kRadius, 6);
     // The lines' 1.7 units, 3.4 pixels, less their soft edges.
     EXPECT_NEAR(arc.count, std::numbers::pi * kRadius / 2 * 2.6, 0.25 * arc.count);
@@ -70,7 +70,7 @@ TEST(PolarPlot, DrawsBandsBetweenTheirEnds) {
     const io::Colour band{on_paper(ink.red), on_paper(ink.green), on_paper(ink.blue)};
     const double expected = std::numbers::pi / 2 * kRadius * kRadius * (1 - 0.25);
     // But for the grid that shines through.
-    EXPECT_NEAR(find_colour(draw({"", "", {series}}), band).count / expected, 1, 0.06);
+    EXPECT_NEAR(find_colour(drawn_polar({"", "", {series}}), band).count / expected, 1, 0.06);
 }
 
 TEST(PolarPlot, TakesTheRoomThatItsTextsNeed) {
@@ -78,7 +78,7 @@ TEST(PolarPlot, TakesTheRoomThatItsTextsNeed) {
     PolarPlot with_texts = plain;
     with_texts.title = "A title";
     with_texts.series[0].name = "a curve";
-    const PngPixels without = draw(plain), with = draw(with_texts);
+    const PngPixels without = drawn_polar(plain), with = drawn_polar(with_texts);
     EXPECT_GT(with.height, without.height + 60);
     // The curve's swatch in the legend: 28 units of a line 1.7 wide.
     EXPECT_GT(find_colour(with, palette_colour(0)).count,
@@ -95,13 +95,13 @@ TEST(PolarPlot, WritesSvg) {
 }
 
 TEST(PolarPlot, SaysWhatIsWrong) {
-    EXPECT_THROW(draw({"", "", {{"", {1, 2}, {1}}}}), std::invalid_argument);
-    EXPECT_THROW(draw({"", "", {{"", {91}, {1}}}}), std::invalid_argument);
-    EXPECT_THROW(draw({"", "", {{"", {NAN}, {1}}}}), std::invalid_argument);
+    EXPECT_THROW(drawn_polar({"", "", {{"", {1, 2}, {1}}}}), std::invalid_argument);
+    EXPECT_THROW(drawn_polar({"", "", {{"", {91}, {1}}}}), std::invalid_argument);
+    EXPECT_THROW(drawn_polar({"", "", {{"", {NAN}, {1}}}}), std::invalid_argument);
     EXPECT_THROW(draw_polar_plot({"", "", {}}, "polar.pdf"), InputError);
 }
 
-TEST(PolarPlot, DrawsNothingButItsFrameWithoutData) { EXPECT_NO_THROW(draw({})); }
+TEST(PolarPlot, DrawsNothingButItsFrameWithoutData) { EXPECT_NO_THROW(drawn_polar({})); }
 
 }  // namespace
-}  // namespace stilb::plot
+}  // namespace stilb::papers

@@ -6,10 +6,12 @@
 #include <span>
 #include <vector>
 
+#include "papers/plot.h"
 #include "plot/canvas.h"
-#include "plot/plot.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
+
+using plot::Canvas, plot::PageRectangle, plot::Point, plot::Stroke;
 
 inline constexpr double kMargin = 20;  // of the sheet
 inline constexpr double kPlotTitleSize = 15;
@@ -65,4 +67,4 @@ PlacedSeries place_series(const Series& series, std::size_t index, const Frame& 
     return placed;
 }
 
-}  // namespace stilb::plot
+}  // namespace stilb::papers

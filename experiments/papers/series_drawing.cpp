@@ -1,4 +1,4 @@
-#include "plot/series_drawing.h"
+#include "papers/series_drawing.h"
 
 #include <algorithm>
 #include <array>
@@ -6,7 +6,7 @@
 
 #include "plot/axis.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 namespace {
 
 constexpr double kLegendSize = 10.5;
@@ -158,7 +158,7 @@ PageRectangle legend_box(std::span<const PlacedSeries> all) {
     for (const PlacedSeries& placed : all) {
         if (placed.series.name.empty()) continue;
         ++named;
-        widest = std::max(widest, text_width(placed.series.name, kLegendSize));
+        widest = std::max(widest, plot::text_width(placed.series.name, kLegendSize));
     }
     if (named == 0) return {};
     return {0, 0, 2 * kLegendPadding + kSwatch + kSwatchGap + widest, kLegendPadding + kLegendLine * named};
@@ -173,7 +173,7 @@ void draw_legend(Canvas& canvas, std::span<const PlacedSeries> all, const PageRe
         if (placed.series.name.empty()) continue;
         draw_swatch(canvas, placed, at);
         canvas.text({at.x + kSwatch + kSwatchGap, at.y}, placed.series.name,
-                    {.size = kLegendSize, .colour = kInk, .vertical = VerticalPart::middle});
+                    {.size = kLegendSize, .colour = plot::kInk, .vertical = plot::VerticalPart::middle});
         at.y += kLegendLine;
     }
 }
@@ -190,4 +190,4 @@ io::Colour palette_colour(std::size_t index) {
     return {red / 255.0, green / 255.0, blue / 255.0};
 }
 
-}  // namespace stilb::plot
+}  // namespace stilb::papers

@@ -1,10 +1,11 @@
+#include "papers/picture_sheet.h"
+
 #include <gtest/gtest.h>
 
-#include "plot/canvas.h"
 #include "support/picture_pixels.h"
 #include "support/test_folder.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 namespace {
 
 LabelledPicture plain(const std::array<float, 3>& rgb_cd_m2) {
@@ -34,4 +35,4 @@ TEST(PictureSheet, ShowsEveryPixelByOneCurve) {
 }
 
 }  // namespace
-}  // namespace stilb::plot
+}  // namespace stilb::papers

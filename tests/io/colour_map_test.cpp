@@ -1,29 +1,28 @@
+#include "io/image/colour_map.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
-#include "plot/false_colour.h"
-
-namespace stilb::plot {
+namespace stilb::io {
 namespace {
 
 TEST(Oklab, GivesThePublishedValues) {
-    const io::Oklab white = io::to_oklab({1, 1, 1});
+    const Oklab white = to_oklab({1, 1, 1});
     EXPECT_NEAR(white.lightness, 1, 1e-6);
     EXPECT_NEAR(white.a, 0, 1e-6);
     EXPECT_NEAR(white.b, 0, 1e-6);
     // sRGB red as CSS Color 4 lists it: oklab(0.628 0.225 0.126).
-    const io::Oklab red = io::to_oklab({1, 0, 0});
+    const Oklab red = to_oklab({1, 0, 0});
     EXPECT_NEAR(red.lightness, 0.628, 5e-4);
     EXPECT_NEAR(red.a, 0.225, 5e-4);
     EXPECT_NEAR(red.b, 0.126, 5e-4);
 }
 
 TEST(Oklab, ComesBack) {
-    for (const io::Colour colour :
-         {io::Colour{0.2, 0.5, 0.9}, io::Colour{0.01, 0.02, 0.03}, io::Colour{1, 0.3, 0}}) {
-        const io::Colour back = from_oklab(to_oklab(colour));
+    for (const Colour colour : {Colour{0.2, 0.5, 0.9}, Colour{0.01, 0.02, 0.03}, Colour{1, 0.3, 0}}) {
+        const Colour back = from_oklab(to_oklab(colour));
         EXPECT_NEAR(back.red, colour.red, 1e-6);
         EXPECT_NEAR(back.green, colour.green, 1e-6);
         EXPECT_NEAR(back.blue, colour.blue, 1e-6);
@@ -59,7 +58,7 @@ TEST(ColourMap, StepsAreEqualInOklabToOnePercent) {
 TEST(ColourMap, StaysWithinWhatAScreenShows) {
     const ColourMap map;
     for (int i = 0; i <= 1000; ++i) {
-        const io::Colour colour = map.at(i / 1000.0);
+        const Colour colour = map.at(i / 1000.0);
         for (const double component : {colour.red, colour.green, colour.blue}) {
             EXPECT_GE(component, 0) << i;
             EXPECT_LE(component, 1) << i;
@@ -74,7 +73,7 @@ TEST(ColourMap, GivesTheEndsBeyondTheEnds) {
     EXPECT_GT(distance(to_oklab(map.at(0)), to_oklab(map.at(1))), 0.8);
 }
 
-double relative_luminance(const io::Colour& colour) {
+double relative_luminance(const Colour& colour) {
     const auto linear = [](double c) {
         return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
     };
@@ -91,4 +90,4 @@ TEST(ColourMap, NumbersAreReadableOnEveryColour) {
 }
 
 }  // namespace
-}  // namespace stilb::plot
+}  // namespace stilb::io

@@ -1,4 +1,4 @@
-#include "plot/plot.h"
+#include "papers/plot.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "support/picture_pixels.h"
 #include "support/test_folder.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 namespace {
 
 PngPixels draw(const Plot& plot) {
@@ -19,7 +19,7 @@ PngPixels draw(const Plot& plot) {
 }
 
 /// A linear axis from 0 to 10.
-PlotAxis zero_to_ten() { return {"x", ScaleType::linear, 0.0, 10.0}; }
+PlotAxis zero_to_ten() { return {"x", plot::ScaleType::linear, 0.0, 10.0}; }
 
 Plot plot_of(std::vector<Series> series, const PlotAxis& x = zero_to_ten(),
              const PlotAxis& y = zero_to_ten()) {
@@ -52,7 +52,7 @@ TEST(Plot, PutsPointsWhereTheyBelong) {
 }
 
 TEST(Plot, PutsPointsOnLogarithmicAxes) {
-    const PlotAxis axis{"x", ScaleType::logarithmic, 0.01, 100.0};
+    const PlotAxis axis{"x", plot::ScaleType::logarithmic, 0.01, 100.0};
     const Spot middle = marker_at(1, 1, axis);
     ASSERT_GT(middle.count, 30);
     EXPECT_NEAR(marker_at(10, 0.1, axis).x - middle.x, 0.25 * 1240, 1);
@@ -98,7 +98,7 @@ TEST(Plot, DrawsBarsBetweenTheirEnds) {
 TEST(Plot, BandsDownToZeroFillALogarithmicPanel) {
     Series series{"", {1, 10}, {5, 5}, {0, 0}, {10, 10}};
     series.line = LineStyle::none;
-    const PlotAxis axis{"x", ScaleType::logarithmic, 1.0, 10.0};
+    const PlotAxis axis{"x", plot::ScaleType::logarithmic, 1.0, 10.0};
     const PngPixels pixels = draw(plot_of({series}, axis, axis));
     const Spot white = find_colour(pixels, io::grey(1));
     EXPECT_LT(white.count, pixels.width * pixels.height - 0.95 * 1240 * 620);
@@ -140,7 +140,7 @@ TEST(Plot, SaysWhatIsWrong) {
     EXPECT_THROW(draw(half_interval), std::invalid_argument);
     Plot good = plot_of({points({1}, {1})});
     EXPECT_THROW(draw_plot(good, "plot.pdf"), InputError);
-    good.x.scale = ScaleType::logarithmic;  // from 0
+    good.x.scale = plot::ScaleType::logarithmic;  // from 0
     EXPECT_THROW(draw(good), InputError);
     good.panels.clear();
     EXPECT_THROW(draw(good), std::invalid_argument);
@@ -153,4 +153,4 @@ TEST(Plot, DrawsPanelsWithoutData) {
 }
 
 }  // namespace
-}  // namespace stilb::plot
+}  // namespace stilb::papers

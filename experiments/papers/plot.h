@@ -10,7 +10,7 @@
 #include "io/image/tone_curve.h"
 #include "plot/axis.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 
 // Series: data of plots, drawn as curves, measured points and intervals.
 
@@ -36,7 +36,7 @@ io::Colour palette_colour(std::size_t index);
 
 struct PlotAxis {
     std::string label;
-    ScaleType scale = ScaleType::linear;
+    plot::ScaleType scale = plot::ScaleType::linear;
     /// Absent: round numbers about the data.
     std::optional<double> minimum{}, maximum{};
 };
@@ -72,4 +72,4 @@ struct PolarPlot {
 /// series' lists differ in length or a theta is out of range.
 void draw_polar_plot(const PolarPlot& plot, const std::filesystem::path& path);
 
-}  // namespace stilb::plot
+}  // namespace stilb::papers

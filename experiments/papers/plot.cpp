@@ -1,5 +1,5 @@
 
-#include "plot/plot.h"
+#include "papers/plot.h"
 
 #include <fmt/format.h>
 
@@ -10,11 +10,11 @@
 #include <span>
 #include <stdexcept>
 
+#include "papers/series_drawing.h"
 #include "plot/axis.h"
 #include "plot/canvas.h"
-#include "plot/series_drawing.h"
 
-namespace stilb::plot {
+namespace stilb::papers {
 
 namespace {
 
@@ -26,22 +26,22 @@ constexpr double kEdgeSlack = 1e-6;
 /// represent.
 constexpr double kFarthest = 8;
 
-Scale make_scale(const PlotAxis& axis, const std::vector<double>& values) {
-    const AxisRange range = nice_range(axis.scale, values);
-    return Scale(axis.scale, {axis.minimum.value_or(range.low), axis.maximum.value_or(range.high)});
+plot::Scale make_scale(const PlotAxis& axis, const std::vector<double>& values) {
+    const plot::AxisRange range = nice_range(axis.scale, values);
+    return plot::Scale(axis.scale, {axis.minimum.value_or(range.low), axis.maximum.value_or(range.high)});
 }
 
-Scale x_scale_of(const Plot& plot) {
+plot::Scale x_scale_of(const Plot& drawn) {
     std::vector<double> values;
-    for (const PlotPanel& panel : plot.panels) {
+    for (const PlotPanel& panel : drawn.panels) {
         for (const Series& series : panel.series) {
             values.insert(values.end(), series.x.begin(), series.x.end());
         }
     }
-    return make_scale(plot.x, values);
+    return make_scale(drawn.x, values);
 }
 
-Scale y_scale_of(const PlotPanel& panel) {
+plot::Scale y_scale_of(const PlotPanel& panel) {
     std::vector<double> values;
     for (const Series& series : panel.series) {
         for (const auto* list : {&series.y, &series.y_low, &series.y_high}) {
@@ -51,18 +51,18 @@ Scale y_scale_of(const PlotPanel& panel) {
     return make_scale(panel.y, values);
 }
 
-void require_consistency(const Plot& plot) {
-    if (plot.panels.empty()) throw std::invalid_argument("the plot has no panels");
-    for (const PlotPanel& panel : plot.panels) require_consistency(panel.series);
+void require_consistency(const Plot& drawn) {
+    if (drawn.panels.empty()) throw std::invalid_argument("the plot has no panels");
+    for (const PlotPanel& panel : drawn.panels) require_consistency(panel.series);
 }
 
 /// The scales and the position of one panel.
-struct Frame {
-    Scale x, y;
-    Ticks x_ticks, y_ticks;
+struct PanelFrame {
+    plot::Scale x, y;
+    plot::Ticks x_ticks, y_ticks;
     PageRectangle place;
 
-    Frame(const Scale& x_scale, const Scale& y_scale, double height)
+    PanelFrame(const plot::Scale& x_scale, const plot::Scale& y_scale, double height)
         : x(x_scale),
           y(y_scale),
           x_ticks(nice_ticks(x, static_cast<int>(kWidth / 60))),
@@ -85,18 +85,18 @@ struct Frame {
 
     /// Lower ends without a logarithm go down off the frame.
     double low_end(double y_value) const {
-        return y.type() == ScaleType::logarithmic && y_value <= 0 ? y.value_at(-1) : y_value;
+        return y.type() == plot::ScaleType::logarithmic && y_value <= 0 ? y.value_at(-1) : y_value;
     }
 };
 
-void draw_grid_lines(Canvas& canvas, const Frame& frame) {
+void draw_grid_lines(Canvas& canvas, const PanelFrame& frame) {
     const PageRectangle& place = frame.place;
-    for (const Tick& tick : frame.x_ticks.major) {
-        const double x = position_along(frame.x, Side::bottom, place, tick.value);
+    for (const plot::Tick& tick : frame.x_ticks.major) {
+        const double x = position_along(frame.x, plot::Side::bottom, place, tick.value);
         canvas.line({x, place.top}, {x, place.bottom()}, {kGridColour, 0.8});
     }
-    for (const Tick& tick : frame.y_ticks.major) {
-        const double y = position_along(frame.y, Side::left, place, tick.value);
+    for (const plot::Tick& tick : frame.y_ticks.major) {
+        const double y = position_along(frame.y, plot::Side::left, place, tick.value);
         canvas.line({place.left, y}, {place.right(), y}, {kGridColour, 0.8});
     }
 }
@@ -119,7 +119,7 @@ PageRectangle place_legend(std::span<const PlacedSeries> all, const PageRectangl
     return best;
 }
 
-void draw_panel(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
+void draw_panel(Canvas& canvas, const PlotPanel& panel, const PanelFrame& frame) {
     const PageRectangle& place = frame.place;
     std::vector<PlacedSeries> all;
     for (std::size_t i = 0; i < panel.series.size(); ++i) {
@@ -129,7 +129,7 @@ void draw_panel(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
     canvas.clipped(place, [&] {
         for (const PlacedSeries& placed : all) draw_areas(canvas, placed);
     });
-    canvas.stroke_rectangle(place, {kInk, 0.8});
+    canvas.stroke_rectangle(place, {plot::kInk, 0.8});
     const PageRectangle around{place.left - kMarkerReach, place.top - kMarkerReach,
                                place.width + 2 * kMarkerReach, place.height + 2 * kMarkerReach};
     canvas.clipped(around, [&] {
@@ -137,43 +137,46 @@ void draw_panel(Canvas& canvas, const PlotPanel& panel, const Frame& frame) {
         for (const PlacedSeries& placed : all) draw_points(canvas, placed, is_within);
     });
     draw_legend(canvas, all, place_legend(all, place));
-    draw_axis(canvas, frame.x, frame.x_ticks, Side::bottom, place);
-    draw_axis(canvas, frame.y, frame.y_ticks, Side::left, place);
-    canvas.text(
-        {kMargin + kLabelSize, place.center().y}, panel.y.label,
-        {.size = kLabelSize, .colour = kInk, .horizontal = HorizontalPart::center, .angle_rad = kUpwards});
+    draw_axis(canvas, frame.x, frame.x_ticks, plot::Side::bottom, place);
+    draw_axis(canvas, frame.y, frame.y_ticks, plot::Side::left, place);
+    canvas.text({kMargin + kLabelSize, place.center().y}, panel.y.label,
+                {.size = kLabelSize,
+                 .colour = plot::kInk,
+                 .horizontal = plot::HorizontalPart::center,
+                 .angle_rad = plot::kUpwards});
 }
 
 }  // namespace
 
-void draw_plot(const Plot& plot, const std::filesystem::path& path) {
-    require_consistency(plot);
-    const Scale x = x_scale_of(plot);
-    std::vector<Frame> frames;
+void draw_plot(const Plot& drawn, const std::filesystem::path& path) {
+    require_consistency(drawn);
+    const plot::Scale x = x_scale_of(drawn);
+    std::vector<PanelFrame> frames;
     double extent = 0;
-    for (const PlotPanel& panel : plot.panels) {
+    for (const PlotPanel& panel : drawn.panels) {
         frames.emplace_back(x, y_scale_of(panel), panel.height);
-        extent = std::max(extent, axis_extent(frames.back().y_ticks, Side::left));
+        extent = std::max(extent, axis_extent(frames.back().y_ticks, plot::Side::left));
     }
-    double bottom = kMargin + (plot.title.empty() ? 0 : kPlotTitleSize + 14);
-    for (Frame& frame : frames) {
+    double bottom = kMargin + (drawn.title.empty() ? 0 : kPlotTitleSize + 14);
+    for (PanelFrame& frame : frames) {
         frame.place.left = kMargin + kLabelSize + 12 + extent;
         frame.place.top = bottom;
         bottom = frame.place.bottom() + kPanelGap;
     }
     const PageRectangle& last = frames.back().place;
-    const double x_label = last.bottom() + axis_extent(frames.back().x_ticks, Side::bottom) + 8 + kLabelSize;
+    const double x_label =
+        last.bottom() + axis_extent(frames.back().x_ticks, plot::Side::bottom) + 8 + kLabelSize;
 
     Canvas canvas(path, last.right() + kMargin + 8, x_label + kMargin);
-    canvas.text({last.left, kMargin + kPlotTitleSize}, plot.title,
-                {.size = kPlotTitleSize, .colour = kInk, .weight = Weight::bold});
+    canvas.text({last.left, kMargin + kPlotTitleSize}, drawn.title,
+                {.size = kPlotTitleSize, .colour = plot::kInk, .weight = plot::Weight::bold});
     // Only the lowest panel's x axis carries numbers.
-    for (Frame& frame : std::span(frames).first(frames.size() - 1)) {
-        for (Tick& tick : frame.x_ticks.major) tick.label.clear();
+    for (PanelFrame& frame : std::span(frames).first(frames.size() - 1)) {
+        for (plot::Tick& tick : frame.x_ticks.major) tick.label.clear();
     }
-    for (std::size_t i = 0; i < frames.size(); ++i) draw_panel(canvas, plot.panels[i], frames[i]);
-    canvas.text({last.center().x, x_label}, plot.x.label,
-                {.size = kLabelSize, .colour = kInk, .horizontal = HorizontalPart::center});
+    for (std::size_t i = 0; i < frames.size(); ++i) draw_panel(canvas, drawn.panels[i], frames[i]);
+    canvas.text({last.center().x, x_label}, drawn.x.label,
+                {.size = kLabelSize, .colour = plot::kInk, .horizontal = plot::HorizontalPart::center});
     canvas.save();
 }
 
@@ -187,14 +190,14 @@ constexpr double kAngleGap = 14;
 constexpr double kAngleRoom = 44;
 constexpr double kLegendGap = 16;
 
-Scale scale_of(const std::vector<Series>& all) {
+plot::Scale scale_of(const std::vector<Series>& all) {
     std::vector<double> values{0};
     for (const Series& series : all) {
         for (const auto* list : {&series.y, &series.y_low, &series.y_high}) {
             for (const double value : *list) values.push_back(std::max(value, 0.0));
         }
     }
-    return Scale(ScaleType::linear, nice_range(ScaleType::linear, values));
+    return plot::Scale(plot::ScaleType::linear, nice_range(plot::ScaleType::linear, values));
 }
 
 void require_angles(const std::vector<Series>& all) {
@@ -213,7 +216,7 @@ Point around(const Point& centre, double theta_deg, double radius) {
 }
 
 struct PolarFrame {
-    Scale scale;
+    plot::Scale scale;
     Point centre;
 
     Point at(double theta_deg, double value) const {
@@ -231,8 +234,8 @@ void draw_ring(Canvas& canvas, const Point& centre, double radius, const Stroke&
     canvas.polyline(arc, stroke);
 }
 
-void draw_grid(Canvas& canvas, const PolarFrame& frame, const Ticks& ticks) {
-    for (const Tick& tick : ticks.major) {
+void draw_grid(Canvas& canvas, const PolarFrame& frame, const plot::Ticks& ticks) {
+    for (const plot::Tick& tick : ticks.major) {
         draw_ring(canvas, frame.centre, kRadius * frame.scale.fraction_of(tick.value), {kGridColour, 0.8});
     }
     for (int theta_deg = -90; theta_deg <= 90; theta_deg += kSpokeStep_deg) {
@@ -241,16 +244,18 @@ void draw_grid(Canvas& canvas, const PolarFrame& frame, const Ticks& ticks) {
 }
 
 void draw_outline(Canvas& canvas, const PolarFrame& frame) {
-    draw_ring(canvas, frame.centre, kRadius, {kInk, 0.8});
-    canvas.line(around(frame.centre, -90, kRadius), around(frame.centre, 90, kRadius), {kInk, 0.8});
+    draw_ring(canvas, frame.centre, kRadius, {plot::kInk, 0.8});
+    canvas.line(around(frame.centre, -90, kRadius), around(frame.centre, 90, kRadius), {plot::kInk, 0.8});
     for (int theta_deg = -90; theta_deg <= 90; theta_deg += kLabelStep_deg) {
-        const HorizontalPart part = theta_deg < 0   ? HorizontalPart::right
-                                    : theta_deg > 0 ? HorizontalPart::left
-                                                    : HorizontalPart::center;
-        canvas.text(
-            around(frame.centre, theta_deg, kRadius + (theta_deg == 0 ? kAngleGap : kAngleGap / 2)),
-            number_text(theta_deg, 0) + "°",
-            {.size = kAxisTextSize, .colour = kInk, .horizontal = part, .vertical = VerticalPart::middle});
+        const plot::HorizontalPart part = theta_deg < 0   ? plot::HorizontalPart::right
+                                          : theta_deg > 0 ? plot::HorizontalPart::left
+                                                          : plot::HorizontalPart::center;
+        canvas.text(around(frame.centre, theta_deg, kRadius + (theta_deg == 0 ? kAngleGap : kAngleGap / 2)),
+                    plot::number_text(theta_deg, 0) + "°",
+                    {.size = plot::kAxisTextSize,
+                     .colour = plot::kInk,
+                     .horizontal = part,
+                     .vertical = plot::VerticalPart::middle});
     }
 }
 
@@ -261,36 +266,37 @@ void draw_series(Canvas& canvas, const std::vector<PlacedSeries>& all) {
 
 }  // namespace
 
-void draw_polar_plot(const PolarPlot& plot, const std::filesystem::path& path) {
-    require_consistency(plot.series);
-    require_angles(plot.series);
-    const double top = kMargin + (plot.title.empty() ? 0 : kPlotTitleSize + 14) + kAngleGap + kAxisTextSize;
-    const PolarFrame frame{scale_of(plot.series), {kMargin + kAngleRoom + kRadius, top + kRadius}};
-    const Ticks ticks = nice_ticks(frame.scale, 6);
+void draw_polar_plot(const PolarPlot& drawn, const std::filesystem::path& path) {
+    require_consistency(drawn.series);
+    require_angles(drawn.series);
+    const double top =
+        kMargin + (drawn.title.empty() ? 0 : kPlotTitleSize + 14) + kAngleGap + plot::kAxisTextSize;
+    const PolarFrame frame{scale_of(drawn.series), {kMargin + kAngleRoom + kRadius, top + kRadius}};
+    const plot::Ticks ticks = nice_ticks(frame.scale, 6);
     std::vector<PlacedSeries> all;
-    for (std::size_t i = 0; i < plot.series.size(); ++i) {
-        all.push_back(place_series(plot.series[i], i, frame));
+    for (std::size_t i = 0; i < drawn.series.size(); ++i) {
+        all.push_back(place_series(drawn.series[i], i, frame));
     }
-    const double label = frame.centre.y + axis_extent(ticks, Side::bottom) + 8 + kLabelSize;
+    const double label = frame.centre.y + axis_extent(ticks, plot::Side::bottom) + 8 + kLabelSize;
     PageRectangle legend = legend_box(all);
     legend.left = frame.centre.x - legend.width / 2;
     legend.top = label + kLegendGap;
 
     Canvas canvas(path, frame.centre.x + kRadius + kAngleRoom + kMargin,
                   (legend.height > 0 ? legend.bottom() : label) + kMargin);
-    canvas.text({frame.centre.x, kMargin + kPlotTitleSize}, plot.title,
+    canvas.text({frame.centre.x, kMargin + kPlotTitleSize}, drawn.title,
                 {.size = kPlotTitleSize,
-                 .colour = kInk,
-                 .weight = Weight::bold,
-                 .horizontal = HorizontalPart::center});
+                 .colour = plot::kInk,
+                 .weight = plot::Weight::bold,
+                 .horizontal = plot::HorizontalPart::center});
     draw_grid(canvas, frame, ticks);
     draw_series(canvas, all);
     draw_outline(canvas, frame);
-    draw_axis(canvas, frame.scale, ticks, Side::bottom, frame.right_half());
-    canvas.text({frame.centre.x, label}, plot.value_label,
-                {.size = kLabelSize, .colour = kInk, .horizontal = HorizontalPart::center});
+    draw_axis(canvas, frame.scale, ticks, plot::Side::bottom, frame.right_half());
+    canvas.text({frame.centre.x, label}, drawn.value_label,
+                {.size = kLabelSize, .colour = plot::kInk, .horizontal = plot::HorizontalPart::center});
     draw_legend(canvas, all, legend);
     canvas.save();
 }
 
-}  // namespace stilb::plot
+}  // namespace stilb::papers
