@@ -8,6 +8,7 @@
 
 #include "run/options.h"
 #include "run/plan.h"
+#include "run/prepared_scene.h"
 #include "run/result.h"
 #include "scene/light_groups.h"
 #include "scene/scene.h"
@@ -53,6 +54,8 @@ class PictureSink : public ProgressSink {
     virtual void show(const Pixels& pixels) = 0;
 };
 
+// Runs take a scene, or a prepared one, which spares later runs the set-up that they have in common.
+
 // Readings.
 
 /// Measures all sensors at once. Without any limit in the options, to an error of 1 % or for a minute. The
@@ -64,13 +67,13 @@ class PictureSink : public ProgressSink {
 /// `state`: may be null. One without a plan receives the plan of the run and its sums. One with a plan is
 /// continued, in the technique and with the seed of its plan: a run that stopped by its error, by time or by
 /// the user gives the bits of a run in one go; so do parts that were merged.
-RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   RunState* state = nullptr);
 
 /// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.
 /// Throws as measure() does, and std::invalid_argument where the plan is not complete.
-void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+void measure_part(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   RunPart part, RunState& state, ProgressSink* progress = nullptr,
                   const std::atomic<bool>* interrupt = nullptr);
 
@@ -79,7 +82,7 @@ void measure_part(const Scene& scene, std::span<const Sensor> sensors, const Run
 /// Renders one camera. Without any limit, for a minute. The result depends on scene, camera, method, bounces
 /// and seed, and on the passes done: not on threads. `interrupt` ends the run early, with a result. Throws as
 /// measure() does.
-RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& options,
+RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
                     PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
 /// Renders one camera from a solution, its groups of lights multiplied by factors: a few passes for smooth

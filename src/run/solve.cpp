@@ -200,13 +200,14 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
 
 }  // namespace
 
-SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degree, ProgressSink* progress,
-                  const std::atomic<bool>* interrupt, SolutionSink* sink) {
+SolveResult solve(const PreparedScene& prepared, const RunOptions& asked_options, int degree,
+                  ProgressSink* progress, const std::atomic<bool>* interrupt, SolutionSink* sink) {
+    const Scene& scene = prepared.scene();
     require_valid(asked_options);
     require_storable(scene, asked_options, degree);
     RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
-    Session session(scene, {}, asked_options, options, progress, interrupt);
+    Session session(prepared, {}, asked_options, options, progress, interrupt);
     std::vector<Warning> of_scene = session.scene_warnings({});
     if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;

@@ -77,13 +77,11 @@ std::string to_json(const SpotReading& reading) {
         .dump();
 }
 
-Scene with_factors(const Scene& scene, std::span<const LightFactor> factors) {
-    const LightGroups groups = scene::light_groups(scene);
-    const std::vector<Rgb> of_groups = scene::factors_of_groups(factors, groups.names);
+Scene with_factors(const Scene& scene, const LightGroups& groups, std::span<const Rgb> factors) {
     Scene changed = scene;
     changed.lights.clear();
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Rgb& factor = of_groups[groups.of_light[i]];
+        const Rgb& factor = factors[groups.of_light[i]];
         Light light = scene.lights[i];
         if (factor.max() < kLeastFactor) continue;
         if (factor != Rgb::grey(1)) light.source = lights::scaled(light.source, factor);
@@ -92,11 +90,22 @@ Scene with_factors(const Scene& scene, std::span<const LightFactor> factors) {
     return changed;
 }
 
-SpotMeter::SpotMeter(const Scene& scene, const RunOptions& options) : scene_(scene) {
+SpotMeter::SpotMeter(const Scene& scene, const RunOptions& options)
+    : scene_(scene), groups_(scene::light_groups(scene)) {
     options_.seed = options.seed;
     options_.threads = options.threads;
     options_.error = kError;
+    options_.checks = run::Checks::refusals;
     options_.time_s = kTime_s + kTimePerTriangle_s * triangles_in(scene);
+}
+
+const run::PreparedScene& SpotMeter::lit_by(std::span<const LightFactor> factors) {
+    std::vector<Rgb> of_groups = scene::factors_of_groups(factors, groups_.names);
+    if (std::ranges::all_of(of_groups, [](const Rgb& factor) { return factor == Rgb::grey(1); }))
+        return scene_;
+    if (!relit_ || relit_->factors != of_groups)
+        relit_ = std::make_unique<const Relit>(scene_, groups_, std::move(of_groups));
+    return relit_->prepared;
 }
 
 SpotReading SpotMeter::measure(const SpotRequest& request) {
@@ -109,7 +118,7 @@ SpotReading SpotMeter::measure(const SpotRequest& request) {
 
     const std::array sensors{sensor_of(request.measurand)};
     const RunResult result =
-        run::measure(with_factors(scene_, request.factors), sensors, options_, nullptr, &is_cancelled_);
+        run::measure(lit_by(request.factors), sensors, options_, nullptr, &is_cancelled_);
     const statistics::Estimate& estimate = result.sensors.front().readings.front().estimate;
     return {estimate.value, std::max(estimate.upper - estimate.value, estimate.value - estimate.lower),
             sensors.front().quantity().unit, result.elapsed_s};
