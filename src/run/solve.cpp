@@ -189,7 +189,7 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
     }
     const estimators::FirstShotVariant variant =
         options.patches.first_shot.variant.value_or(estimators::kUsualFirstShot);
-    estimators::require_first_shot_of_points(scene, variant != estimators::FirstShotVariant::none, kMethod);
+    estimators::require_first_shot_of_points(scene, variant, kMethod);
     if (variant == estimators::FirstShotVariant::incoming || variant == estimators::FirstShotVariant::none)
         return;
     throw InputError(
