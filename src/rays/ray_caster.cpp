@@ -446,7 +446,7 @@ std::optional<TracedMesh> RayCaster::traced_mesh(ObjectId object) const {
 bool RayCaster::is_sealed(const Hit& hit) const {
     const Implementation& all = *implementation_;
     std::call_once(all.sealed_once, [&] { all.is_sealed = sealed_sides(all.scene); });
-    return all.is_sealed[object_side(hit.object, hit.on_front)];
+    return all.is_sealed[ObjectSide{hit.object, hit.on_front}.number()];
 }
 
 const Scene& RayCaster::scene() const { return implementation_->scene; }

@@ -139,7 +139,7 @@ class Walks final : public Work {
         const std::vector<bool> is_sealed = sealed_sides(transport_.scene);
         for (const std::uint32_t side : sums_->layout().sides()) {
             const ObjectId object = patches.object_of(patches.patch_of(side));
-            if (is_sealed[object_side(object, patches.is_front(side))]) continue;
+            if (is_sealed[ObjectSide{object, patches.is_front(side)}.number()]) continue;
             const Rgb received_lx = illuminance_lx(side);
             light.lx[side] = received_lx.luminance();
             light.is_lit[side] = light.is_lit[side] || received_lx.max() > 0;
