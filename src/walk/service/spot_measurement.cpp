@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "base/monitor.h"
 #include "run/run.h"
 #include "sensors/sensor.h"
 #include "stilb/error.h"
@@ -19,8 +20,6 @@ namespace stilb::walk {
 namespace {
 
 constexpr double kError = 0.01, kTime_s = 2;
-/// For the acceleration structure and the light tree of large meshes.
-constexpr double kTimePerTriangle_s = 3e-6;
 /// A light with a smaller factor is off.
 constexpr double kLeastFactor = 1e-9;
 
@@ -32,15 +31,6 @@ std::vector<LightFactor> factors_of(const nlohmann::json& request) {
         throw InputError("\"factors\" must be an object of names of light groups and numbers.");
     for (const auto& [name, factor] : given->items()) factors.push_back({name, factor_of(factor, name)});
     return factors;
-}
-
-double triangles_in(const Scene& scene) {
-    double count = 0;
-    for (const Object& object : scene.objects) {
-        const geometry::Mesh* mesh = geometry::stored_mesh(object.shape);
-        if (mesh != nullptr) count += static_cast<double>(mesh->triangles.size());
-    }
-    return count;
 }
 
 Sensor sensor_of(const Measurand& measurand) {
@@ -96,7 +86,7 @@ SpotMeter::SpotMeter(const Scene& scene, const RunOptions& options)
     options_.threads = options.threads;
     options_.error = kError;
     options_.checks = run::Checks::refusals;
-    options_.time_s = kTime_s + kTimePerTriangle_s * triangles_in(scene);
+    options_.time_s = kTime_s;
 }
 
 const run::PreparedScene& SpotMeter::lit_by(std::span<const LightFactor> factors) {
@@ -117,8 +107,10 @@ SpotReading SpotMeter::measure(const SpotRequest& request) {
     if (!lock) throw Cancelled("Other measurements are running. Try again in some seconds.");
 
     const std::array sensors{sensor_of(request.measurand)};
-    const RunResult result =
-        run::measure(lit_by(request.factors), sensors, options_, nullptr, &is_cancelled_);
+    const run::PreparedScene& scene = lit_by(request.factors);
+    // The first measurement builds the acceleration structure, which may take longer than the run.
+    scene.caster(sensors::measured_points(sensors), Monitor(&is_cancelled_, std::nullopt, {}));
+    const RunResult result = run::measure(scene, sensors, options_, nullptr, &is_cancelled_);
     const statistics::Estimate& estimate = result.sensors.front().readings.front().estimate;
     return {estimate.value, std::max(estimate.upper - estimate.value, estimate.value - estimate.lower),
             sensors.front().quantity().unit, result.elapsed_s};

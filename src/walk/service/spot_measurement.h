@@ -46,9 +46,9 @@ class SpotMeter {
     /// The scene must outlive this. Of the options, seed and threads count.
     SpotMeter(const Scene& scene, const RunOptions& options);
 
-    /// To 1 %, or for two seconds (more where the scene takes time to set up). Callable from several threads.
-    /// Throws InputError where the scene cannot be measured so, or a group of lights has another name;
-    /// Cancelled where there is no result in this time, where others are measuring, or after cancel().
+    /// To 1 %, or for two seconds; the first measurement also builds what rays need. Callable from several
+    /// threads. Throws InputError where the scene cannot be measured so, or a group of lights has another
+    /// name; Cancelled where there is no result in this time, where others are measuring, or after cancel().
     SpotReading measure(const SpotRequest& request);
     /// Ends what is being measured, and all that comes.
     void cancel() { is_cancelled_ = true; }
