@@ -126,7 +126,8 @@ Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
                        const std::optional<Options>& options, const Control& control) {
     const io::SceneFile& file = scene.data().file;
     ControlSink sink(control);
-    RunResult run = run::measure(file.scene, sensors, run_options(scene, options), &sink, control.interrupt);
+    RunResult run =
+        run::measure(scene.data().prepared, sensors, run_options(scene, options), &sink, control.interrupt);
     run.warnings.insert(run.warnings.begin(), file.warnings.begin(), file.warnings.end());
     Result result{summary(run, {}), {}, io::to_json(run, scene.data().path.string())};
     std::ranges::transform(run.sensors, std::back_inserter(result.sensors), sensor_result);
@@ -222,8 +223,9 @@ Picture render(const Scene& scene, const std::string& camera, const std::optiona
     const io::SceneFile& file = scene.data().file;
     const Sensor& sensor = sensors::choose_camera(file.sensors, camera);
     ControlSink sink(control);
-    return to_picture(run::render(file.scene, sensor, run_options(scene, options), &sink, control.interrupt),
-                      scene, sensor, scene::whites_of_lights(file.scene));
+    return to_picture(
+        run::render(scene.data().prepared, sensor, run_options(scene, options), &sink, control.interrupt),
+        scene, sensor, scene::whites_of_lights(file.scene));
 }
 
 namespace {
@@ -305,7 +307,8 @@ Solution solve(const Scene& scene, const std::optional<Options>& options, const 
     by_bundles->method = "ray-bundle";
     const RunOptions run = run_options(scene, by_bundles);
     ControlSink sink(control);
-    SolveResult result = run::solve(file.scene, run, run::kDefaultDegree, &sink, control.interrupt);
+    SolveResult result =
+        run::solve(scene.data().prepared, run, run::kDefaultDegree, &sink, control.interrupt);
     const Summary all = summary(result, file.warnings);
     return Solution(
         std::make_shared<const Solution::Data>(Solution::Data{scene, all, std::move(result), run.threads}));

@@ -47,7 +47,7 @@ io::TomlValue toml_of(const Value& value) {
 }
 
 Scene make_scene(io::SceneFile file, const std::filesystem::path& path = {}) {
-    return Scene(std::make_shared<const Scene::Data>(Scene::Data{std::move(file), path}));
+    return Scene(std::make_shared<const Scene::Data>(std::move(file), path));
 }
 
 }  // namespace
@@ -236,9 +236,10 @@ std::vector<PartType> part_types() {
 
 std::vector<std::string> validate(const Scene& scene) {
     const io::SceneFile& file = scene.data().file;
-    const rays::RayCaster caster(file.scene);
-    const checks::Enclosures enclosures(file.scene, caster);
-    return texts_of(checks::scene_warnings(file.scene, caster, enclosures, file.sensors, file.warnings));
+    const run::PreparedScene& prepared = scene.data().prepared;
+    const auto caster = prepared.caster({}, Monitor::none());
+    const checks::Enclosures enclosures(file.scene, *caster, prepared.findings());
+    return texts_of(checks::scene_warnings(file.scene, *caster, enclosures, file.sensors, file.warnings));
 }
 
 std::vector<std::string> validate(const SceneBuilder& builder) {

@@ -17,12 +17,13 @@ std::vector<Warning> scene_warnings(const Scene& scene, const rays::RayCaster& c
         add_warnings(kind, std::move(more), warnings);
     };
     Explained explained(scene, sensors);
-    add(WarningKind::units, unit_warnings(scene));
+    const SceneFindings& findings = enclosures.findings();
+    add(WarningKind::units, findings.units);
     add(WarningKind::openings, opening_warnings(scene));
     add(WarningKind::precision, precision_warnings(caster, sensors));
-    add(WarningKind::holes, hole_warnings(scene, enclosures.components()));
-    add(WarningKind::overlaps, overlap_warnings(scene, caster, sensors));
-    add(WarningKind::lamps, lamp_warnings(scene, caster, enclosures.components(), sensors));
+    add(WarningKind::holes, findings.holes);
+    add(WarningKind::overlaps, overlap_warnings(scene, caster, findings.overlaps, sensors));
+    add(WarningKind::lamps, lamp_warnings(scene, caster, findings.components, sensors));
     add(WarningKind::placement, placement_warnings(scene, caster, enclosures, sensors, explained));
     add(WarningKind::facing, facing_warnings(scene, caster, sensors, explained));
     add(WarningKind::reach, reach_warnings(scene, caster, sensors, explained));

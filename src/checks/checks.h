@@ -5,6 +5,7 @@
 #include <compare>
 #include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -13,10 +14,31 @@
 #include "base/warning.h"
 #include "geometry/mesh_topology.h"
 #include "rays/ray_caster.h"
+#include "scene/overlaps.h"
 #include "scene/scene.h"
 #include "sensors/sensor.h"
 
 namespace stilb::checks {
+
+/// What the checks find without rays: whatever is measured.
+struct SceneFindings {
+    explicit SceneFindings(const Scene& scene);
+
+    /// A lamp that was cut out of a mesh.
+    struct CutLamp {
+        ObjectId from{};
+        std::vector<std::uint32_t> component_of_triangle;  ///< of the whole mesh
+    };
+
+    /// Of every object; a mesh is closed where the lamps that were cut out of it close it.
+    std::vector<geometry::ConnectedComponents> components;
+    std::map<ObjectId, CutLamp> cut_lamps;
+    std::vector<std::string> units, holes;  ///< unit_warnings(), hole_warnings()
+    std::vector<Overlap> overlaps;          ///< the first kMostOverlaps of all surfaces
+
+  private:
+    void join_cut_lamps(const Scene& scene);
+};
 
 // The enclosures of a scene, and those that contain lights: surfaces block light.
 
@@ -37,10 +59,12 @@ struct ProbeRay {
     Vec3 position, direction;
 };
 
-/// Keeps references to both arguments. Immutable.
+/// Keeps references to scene and caster. Immutable.
 class Enclosures {
   public:
-    Enclosures(const Scene& scene, const rays::RayCaster& caster);
+    /// `findings`: those in the scene, where they are known.
+    Enclosures(const Scene& scene, const rays::RayCaster& caster,
+               std::shared_ptr<const SceneFindings> findings = nullptr);
 
     /// The enclosure of a light that the point sees. Else by the parity of the surfaces that three rays into
     /// the hemisphere of the probe's direction cross, by majority.
@@ -51,9 +75,8 @@ class Enclosures {
     /// Whether a light's rays start there.
     bool is_lit(const Enclosure& enclosure) const;
 
-    /// The connected components of every object; a mesh is closed where the lamps that were cut out of it
-    /// close it.
-    const std::vector<geometry::ConnectedComponents>& components() const { return components_; }
+    const SceneFindings& findings() const { return *findings_; }
+    const std::vector<geometry::ConnectedComponents>& components() const { return findings_->components; }
     /// Starts of the light's rays: the first from its first component, others from all of its parts.
     std::vector<ProbeRay> probe_rays_of(const Light& light) const;
 
@@ -63,13 +86,6 @@ class Enclosures {
         Enclosure enclosure;
     };
 
-    /// A lamp that was cut out of a mesh.
-    struct CutLamp {
-        ObjectId from{};
-        std::vector<std::uint32_t> component_of_triangle;  ///< of the whole mesh
-    };
-
-    void join_cut_lamps();
     /// The component that a ray crosses, if it is closed.
     std::optional<ComponentId> closed_component(const rays::Crossing& crossing) const;
     Enclosure voted_enclosure(const ProbeRay& probe_ray) const;
@@ -77,8 +93,7 @@ class Enclosures {
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
-    std::vector<geometry::ConnectedComponents> components_;
-    std::map<ObjectId, CutLamp> cut_lamps_;
+    std::shared_ptr<const SceneFindings> findings_;
     std::vector<std::vector<Enclosure>> of_lights_;
     std::vector<LightLocation> tried_;  ///< the lights whose visibility from a point is tested
 };
@@ -93,11 +108,14 @@ std::vector<std::string> hole_warnings(const Scene& scene,
 
 // Overlapping surfaces.
 
+/// The search ends after so many: the rest would not change what the user has to do.
+inline constexpr std::size_t kMostOverlaps = 1000;
+
 /// A sentence for each pair of objects that overlap in one plane where light arrives: not for the bottom of a
 /// cabinet on the floor. And one for each lamp in the plane of another object: it counts as being in front
 /// (scene/overlaps.h).
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
-                                          std::span<const Sensor> sensors);
+                                          std::span<const Overlap> overlaps, std::span<const Sensor> sensors);
 
 // Lamps that were probably not meant.
 
@@ -151,7 +169,7 @@ std::vector<std::string> reach_warnings(const Scene& scene, const rays::RayCaste
 /// outside of the room (a closed surface separates them from all lights, but not all points of the area), or
 /// a surface covers them. The areas count them. Throws InputError where all of an area is covered.
 std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCaster& caster,
-                                          std::span<const Sensor> sensors);
+                                          const Enclosures& enclosures, std::span<const Sensor> sensors);
 
 // Far away.
 

@@ -1,14 +1,12 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
-#include <map>
-#include <set>
+#include <memory>
 #include <utility>
 #include <variant>
 
 #include "checks/checks.h"
 #include "checks/walks.h"
-#include "scene/cut_lamps.h"
 
 namespace stilb::checks {
 namespace {
@@ -89,16 +87,11 @@ struct ProbeRaysOfShape {
 
 }  // namespace
 
-Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scene_(scene), caster_(caster) {
-    std::map<const Mesh*, std::size_t> first_of_mesh;  // instances share the components of their mesh
-    for (const Object& object : scene.objects) {
-        const auto* instance = std::get_if<Instance>(&object.shape);
-        const auto first = first_of_mesh.find(instance == nullptr ? nullptr : instance->mesh.get());
-        if (instance != nullptr) first_of_mesh.try_emplace(instance->mesh.get(), components_.size());
-        components_.push_back(first == first_of_mesh.end() ? find_components(object.shape)
-                                                           : components_[first->second]);
-    }
-    join_cut_lamps();
+Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster,
+                       std::shared_ptr<const SceneFindings> findings)
+    : scene_(scene),
+      caster_(caster),
+      findings_(findings ? std::move(findings) : std::make_shared<const SceneFindings>(scene)) {
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& enclosures = of_lights_.emplace_back();
         if (location_of(light) == stilb::LightLocation::infinity)
@@ -112,36 +105,14 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster) : scen
     }
 }
 
-void Enclosures::join_cut_lamps() {
-    std::set<ObjectId> with_lamps;
-    for (const Object& object : scene_.objects) {
-        if (object.cut_from) with_lamps.insert(*object.cut_from);
-    }
-    for (const ObjectId object : with_lamps) {
-        geometry::ConnectedComponents& own = components_[index_of(object)];
-        geometry::ConnectedComponents whole = find_components(scene::whole_mesh(scene_, object));
-        auto first = whole.of_triangle.begin();
-        const auto take = [&](std::size_t count) {
-            const auto begin = std::exchange(first, first + static_cast<std::ptrdiff_t>(count));
-            return std::vector<std::uint32_t>(begin, first);
-        };
-        own.of_triangle = take(own.of_triangle.size());
-        // Components are numbered by their first triangles: those of lamps alone come last.
-        const std::uint32_t last = *std::ranges::max_element(own.of_triangle);
-        own.open_edges.assign(whole.open_edges.begin(), whole.open_edges.begin() + last + 1);
-        for (const ObjectId lamp : scene::cut_from(scene_, object))
-            cut_lamps_[lamp] = {object, take(components_[index_of(lamp)].of_triangle.size())};
-    }
-}
-
 std::optional<ComponentId> Enclosures::closed_component(const rays::Crossing& crossing) const {
-    ComponentId id{crossing.object, components_[index_of(crossing.object)].of_triangle[crossing.triangle]};
-    if (const auto lamp = cut_lamps_.find(crossing.object); lamp != cut_lamps_.end()) {
+    ComponentId id{crossing.object, components()[index_of(crossing.object)].of_triangle[crossing.triangle]};
+    if (const auto lamp = findings_->cut_lamps.find(crossing.object); lamp != findings_->cut_lamps.end()) {
         const std::uint32_t component = lamp->second.component_of_triangle[crossing.triangle];
-        const bool is_part = component < components_[index_of(lamp->second.from)].count();
+        const bool is_part = component < components()[index_of(lamp->second.from)].count();
         if (is_part) id = {lamp->second.from, component};
     }
-    const bool is_closed = components_[index_of(id.object)].is_closed(id.component);
+    const bool is_closed = components()[index_of(id.object)].is_closed(id.component);
     return is_closed ? std::optional(id) : std::nullopt;
 }
 
@@ -152,8 +123,8 @@ std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
     }
     const auto surface = lights::emitting_object(light);
     if (!surface) return {};
-    std::vector<ProbeRay> rays =
-        std::visit(ProbeRaysOfShape{components_[index_of(*surface)], caster_}, scene_.object(*surface).shape);
+    std::vector<ProbeRay> rays = std::visit(ProbeRaysOfShape{components()[index_of(*surface)], caster_},
+                                            scene_.object(*surface).shape);
     // An opening may reach through the walls around its luminaire.
     if (std::holds_alternative<LuminousOpening>(light.source)) {
         const Luminaire& luminaire = *lights::luminaire_of(light);

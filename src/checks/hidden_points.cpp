@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <optional>
 
 #include "checks/checks.h"
 #include "checks/walks.h"
@@ -18,8 +17,8 @@ constexpr double kCovering_m = 0.02;
 /// Whether something covers a point, or bodies hide it from all lights.
 class HiddenPoints {
   public:
-    HiddenPoints(const Scene& scene, const rays::RayCaster& caster)
-        : scene_(scene), caster_(caster), enclosures_(scene, caster) {}
+    HiddenPoints(const Scene& scene, const rays::RayCaster& caster, const Enclosures& enclosures)
+        : scene_(scene), caster_(caster), enclosures_(enclosures) {}
 
     bool is_covered(const MeasuringPoint& point, double covering_m) const {
         const ProbeRay probe = probe_of(point);
@@ -38,24 +37,23 @@ class HiddenPoints {
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
-    Enclosures enclosures_;
+    const Enclosures& enclosures_;
 };
 
 }  // namespace
 
 std::vector<Sensor> without_hidden_points(const Scene& scene, const rays::RayCaster& caster,
-                                          std::span<const Sensor> given) {
+                                          const Enclosures& enclosures, std::span<const Sensor> given) {
     std::vector<Sensor> sensors(given.begin(), given.end());
-    std::optional<HiddenPoints> hidden;
+    const HiddenPoints hidden(scene, caster, enclosures);
     for (Sensor& sensor : sensors) {
         auto* const area = std::get_if<Area>(&sensor.kind);
         if (!area) continue;
-        if (!hidden) hidden.emplace(scene, caster);
         const double covering_m = std::min(kCovering_m, std::min(area->cell_m[0], area->cell_m[1]) / 2);
         const auto is_covered = [&](const MeasuringPoint& point) {
-            return hidden->is_covered(point, covering_m);
+            return hidden.is_covered(point, covering_m);
         };
-        const auto is_dark = [&](const MeasuringPoint& point) { return hidden->is_dark(point); };
+        const auto is_dark = [&](const MeasuringPoint& point) { return hidden.is_dark(point); };
         area->left_out += std::erase_if(area->points, is_covered);
         if (area->points.empty()) {
             throw InputError(

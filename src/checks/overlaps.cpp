@@ -15,9 +15,6 @@
 namespace stilb::checks {
 namespace {
 
-/// The search ends after so many: the rest would not change what the user has to do.
-constexpr std::size_t kMostOverlaps = 1000;
-
 struct Found {
     std::size_t count = 0;
     Vec3 where;
@@ -126,9 +123,8 @@ class OverlapLight {
 }  // namespace
 
 std::vector<std::string> overlap_warnings(const Scene& scene, const rays::RayCaster& caster,
+                                          std::span<const Overlap> overlaps,
                                           std::span<const Sensor> sensors) {
-    const std::vector<Overlap> overlaps =
-        scene::find_overlaps(scene, scene::OverlapsOf::all_surfaces, kMostOverlaps);
     if (overlaps.empty() || scene.lights.empty()) return {};
     std::map<std::pair<ObjectId, ObjectId>, std::vector<Overlap>> by_objects;
     for (const Overlap& overlap : overlaps) by_objects[{overlap.first, overlap.second}].push_back(overlap);

@@ -176,10 +176,10 @@ class ReachCheck {
         std::vector<std::string> warnings;
         if (!dark.empty()) {
             const bool is_one = dark.size() == 1;
-            warnings.push_back(fmt::format("{} {}: none of {} light reaches {}{}.",
-                                           is_one ? "light" : "lights", list_of(dark, all_are_judged),
-                                           is_one ? "its" : "their",
-                                           are_cameras_ ? "what the camera sees" : "a sensor", in_the_way));
+            warnings.push_back(fmt::format(
+                "{} {}: none of {} light reaches {}{}.", is_one ? "light" : "lights",
+                list_of(dark, all_are_judged ? Listed::all : Listed::some), is_one ? "its" : "their",
+                are_cameras_ ? "what the camera sees" : "a sensor", in_the_way));
         }
         if (all_are_judged) add_dark_sensors(warnings);
         return warnings;

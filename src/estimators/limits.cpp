@@ -73,8 +73,8 @@ void require_diffuse(const Scene& scene, std::string_view method) {
     }
 }
 
-void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method) {
-    if (has_first_shot) return;
+void require_first_shot_of_points(const Scene& scene, FirstShotVariant variant, std::string_view method) {
+    if (variant != FirstShotVariant::none) return;
     for (const Light& light : scene.lights) {
         if (location_of(light) != LightLocation::point) continue;
         throw InputError(fmt::format(

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "estimators/patch_light/patch_options.h"
 #include "scene/scene.h"
 
 namespace stilb::estimators {
@@ -32,7 +33,7 @@ std::vector<std::string> patch_warnings(const Scene& scene, std::string_view met
 void require_diffuse(const Scene& scene, std::string_view method);
 /// Throws InputError where there are lights other than surfaces but no first shot: nothing else brings their
 /// light to patches.
-void require_first_shot_of_points(const Scene& scene, bool has_first_shot, std::string_view method);
+void require_first_shot_of_points(const Scene& scene, FirstShotVariant variant, std::string_view method);
 /// Throws InputError where light comes from infinity.
 void require_no_light_from_outside(const Scene& scene, std::string_view method);
 /// Throws InputError where the number of reflections is limited.

@@ -9,19 +9,23 @@
 
 namespace stilb::math {
 
+enum class Sign { negative, positive };
+
+/// 0 counts as positive.
+constexpr Sign sign_of(double value) { return value < 0 ? Sign::negative : Sign::positive; }
+
 /// The root of a monotone function between `low` and `high`, where the signs differ; `guess` is between them,
 /// too. By Newton's steps, or bisection where those leave the interval or hardly progress. The last of
 /// Newton's steps is at most 1e-9 of the interval, or leaves an error of at most 1e-12 of it for a second
 /// derivative of at most `curvature`.
 template <typename Function>
-double root_between(const Function& f, double curvature, double low, double high, bool is_negative_at_low,
-                    double guess) {
+double root_between(const Function& f, double curvature, double low, double high, Sign at_low, double guess) {
     const double enough = 1e-9 * (high - low), exact = 1e-12 * (high - low);
     double x = guess, before = high - low;
     while (true) {
         const auto [value, slope] = f(x);
         if (value == 0) return x;
-        ((value < 0) == is_negative_at_low ? low : high) = x;
+        (sign_of(value) == at_low ? low : high) = x;
         const double step = -value / slope, middle = 0.5 * (low + high);
         // Newton's error is below curvature / (2 slope) times the square of the previous error; 4, because
         // the previous error may be twice the step, and the slope in between half of this one.
@@ -39,10 +43,10 @@ double root_between(const Function& f, double curvature, double low, double high
 /// `high`.
 template <typename Function>
 std::optional<double> root_of_monotone(const Function& f, double low, double high) {
-    const bool is_negative = f(low).first < 0;
-    if (is_negative == (f(high).first < 0)) return std::nullopt;
+    const Sign at_low = sign_of(f(low).first);
+    if (at_low == sign_of(f(high).first)) return std::nullopt;
     constexpr double unknown = std::numeric_limits<double>::infinity();
-    return root_between(f, unknown, low, high, is_negative, 0.5 * (low + high));
+    return root_between(f, unknown, low, high, at_low, 0.5 * (low + high));
 }
 
 /// The first change of sign after `low`, where the sign is known, up to `high`, of a function whose second
@@ -51,18 +55,18 @@ std::optional<double> root_of_monotone(const Function& f, double low, double hig
 /// where a sign contradicts the previous one, the change is there.
 template <typename Function>
 std::optional<double> first_root(const Function& f, double curvature, double narrowest, double low,
-                                 double high, bool is_negative_at_low) {
+                                 double high, Sign at_low) {
     const double middle = 0.5 * (low + high), half = 0.5 * (high - low);
     const auto [value, slope] = f(middle);
     if (std::abs(value) > (std::abs(slope) + 0.5 * curvature * half) * half) {
-        return (value < 0) == is_negative_at_low ? std::nullopt : std::optional(low);
+        return sign_of(value) == at_low ? std::nullopt : std::optional(low);
     }
     if (std::abs(slope) > curvature * half || half < narrowest) {
-        if ((f(high).first < 0) == is_negative_at_low) return std::nullopt;
-        return root_between(f, curvature, low, high, is_negative_at_low, middle);
+        if (sign_of(f(high).first) == at_low) return std::nullopt;
+        return root_between(f, curvature, low, high, at_low, middle);
     }
-    const auto found = first_root(f, curvature, narrowest, low, middle, is_negative_at_low);
-    return found ? found : first_root(f, curvature, narrowest, middle, high, is_negative_at_low);
+    const auto found = first_root(f, curvature, narrowest, low, middle, at_low);
+    return found ? found : first_root(f, curvature, narrowest, middle, high, at_low);
 }
 
 }  // namespace stilb::math

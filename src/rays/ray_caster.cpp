@@ -1,21 +1,17 @@
 #include "rays/ray_caster.h"
 
 #include <embree3/rtcore.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <mutex>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <vector>
 
 #include "base/vec.h"
+#include "rays/acceleration_structure.h"
 #include "rays/crossings.h"
-#include "rays/embree_geometry.h"
 #include "rays/few_triangles.h"
-#include "rays/grazed_edges.h"
 #include "rays/packet_parts.h"
 #include "rays/surface_packet.h"
 #include "scene/fine_things.h"
@@ -32,19 +28,6 @@ void count(const LaneMask& lanes) {
     std::int32_t sum = 0;
     for (const std::int32_t lane : lanes) sum += lane;
     traced_by_this_thread += static_cast<std::uint64_t>(-sum);
-}
-
-/// Embree's threads call it while they build. Interruptions come between stages, not from here.
-bool report_build(void* monitor, double share) {
-    try {
-        static_cast<const Monitor*>(monitor)->report("acceleration structure", share);
-    } catch (const Cancelled&) {
-    }
-    return true;
-}
-
-void throw_error(void*, RTCError, const char* message) {
-    throw std::runtime_error(fmt::format("Embree: {}", message));
 }
 
 /// The point with barycentric coordinates b, moved away from the triangle's edges by `margin` metres where it
@@ -82,31 +65,6 @@ InnerPoint away_from_edges(const std::array<double, 3>& b, const std::array<Vec3
 
 }  // namespace
 
-/// The part of an object's data that surfaces() needs, close together.
-struct MetObject {
-    const std::array<float, 3>* vertices;  ///< null for curved surfaces and mirrored instances
-    const Triangle* triangles;
-    const std::uint32_t* parents;          ///< null where no triangle is part of a larger one
-    const MaterialId* materials;           ///< one, or one for each triangle
-    const geometry::Transform* placement;  ///< of instances; else null
-    bool has_one_material;
-    bool is_smooth;
-
-    MetObject(const EmbreeGeometry& geometry, const SharedList<MaterialId>& materials_of_object)
-        : vertices(geometry.is_mirrored ? nullptr : geometry.vertices),
-          triangles(geometry.triangles),
-          parents(geometry.parents.empty() ? nullptr : geometry.parents.data()),
-          materials(materials_of_object.data()),
-          placement(geometry.instance == nullptr ? nullptr : &geometry.placement),
-          has_one_material(materials_of_object.size() == 1),
-          is_smooth(geometry.smooth != nullptr) {}
-
-    MaterialId material_of(std::uint32_t primitive) const {
-        if (has_one_material) return materials[0];
-        return materials[parents == nullptr ? primitive : parents[primitive]];
-    }
-};
-
 struct RayCaster::Implementation {
     const Scene& scene;
     std::vector<Vec3> measured;
@@ -114,63 +72,40 @@ struct RayCaster::Implementation {
     Lift lift_rule;
     const Vec3& center = lift_rule.center();  ///< the origin of Embree's coordinates
     bool has_panes = false;
-    RTCDevice device = nullptr;
-    RTCScene embree_scene = nullptr;
-    int packet_width = 4;  ///< widest that the processor takes natively
-    SharedMeshes shared_meshes;
-    std::vector<std::unique_ptr<EmbreeGeometry>> geometries;  ///< by object
-    std::vector<MetObject> met_objects;
-    std::optional<GrazedEdges> grazed_edges;
+    std::shared_ptr<const AccelerationStructure> structure;
+    const RTCScene embree_scene;
+    const SharedMeshes& shared_meshes;
+    const std::vector<std::unique_ptr<EmbreeGeometry>>& geometries;  ///< by object
+    const GrazedEdges& grazed_edges;
     std::optional<FewTriangles> few_triangles;  ///< all of the scene, if it has few and nothing curved
     mutable std::once_flag sealed_once;         ///< is_sealed is found when it is asked for
     mutable std::vector<bool> is_sealed;        ///< sealed_sides()
 
-    Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> points)
+    /// `known`: a structure of the same objects, which is taken where it suits the points; or null.
+    Implementation(const Scene& s, const Monitor& monitor, std::span<const Vec3> points,
+                   const std::shared_ptr<const AccelerationStructure>& known)
         : scene(s),
           measured(points.begin(), points.end()),
           sees_fine_things(scene::sees_fine_things(s, measured)),
-          lift_rule(scene::lift_of(s, measured, sees_fine_things)) {
-        require_within_reach(s);
+          lift_rule(scene::lift_of(s, measured, sees_fine_things)),
+          structure(structure_for({center, sees_fine_things}, monitor, known)),
+          embree_scene(structure->scene),
+          shared_meshes(structure->shared_meshes),
+          geometries(structure->geometries),
+          grazed_edges(*structure->grazed_edges) {
         has_panes = std::ranges::any_of(scene.objects, [&](const Object& object) {
             return std::ranges::any_of(object.materials,
                                        [&](MaterialId id) { return passes_straight(scene.material(id)); });
         });
-        device = rtcNewDevice(nullptr);
-        if (device == nullptr) throw std::runtime_error("Embree: no device could be created");
-        rtcSetDeviceErrorFunction(device, throw_error, nullptr);
-        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY8_SUPPORTED) != 0) packet_width = 8;
-        if (rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0) packet_width = 16;
-        embree_scene = new_scene(device);
-        grazed_edges.emplace(embree_scene, geometries);
-        for (const Object& object : scene.objects) add(object);
-        rtcSetSceneProgressMonitorFunction(embree_scene, report_build, const_cast<Monitor*>(&monitor));
-        rtcCommitScene(embree_scene);
-        rtcSetSceneProgressMonitorFunction(embree_scene, nullptr, nullptr);  // the monitor may end now
         add_few_triangles();
     }
 
-    ~Implementation() {
-        rtcReleaseScene(embree_scene);
-        rtcReleaseDevice(device);
-    }
-
-    Implementation(const Implementation&) = delete;
-    Implementation& operator=(const Implementation&) = delete;
-
-    void add(const Object& object) {
-        geometries.push_back(std::make_unique<EmbreeGeometry>());
-        const auto* instance = std::get_if<Instance>(&object.shape);
-        const RTCGeometry embree_geometry =
-            instance == nullptr ? new_geometry(device, object.shape, center, *geometries.back())
-                                : shared_meshes.new_instance(device, *instance, center, *geometries.back());
-        if (sees_fine_things && geometries.back()->vertices != nullptr && instance == nullptr) {
-            rtcSetGeometryUserData(embree_geometry, &*grazed_edges);
-            rtcSetGeometryOccludedFilterFunction(embree_geometry, GrazedEdges::drop_from_occlusion);
-        }
-        rtcCommitGeometry(embree_geometry);
-        rtcAttachGeometryByID(embree_scene, embree_geometry, static_cast<unsigned>(geometries.size() - 1));
-        met_objects.emplace_back(*geometries.back(), object.materials);
-        rtcReleaseGeometry(embree_geometry);
+    std::shared_ptr<const AccelerationStructure> structure_for(
+        const AccelerationStructure::Precision& precision, const Monitor& monitor,
+        const std::shared_ptr<const AccelerationStructure>& known) const {
+        require_within_reach(scene);
+        if (known && known->precision == precision) return known;
+        return std::make_shared<const AccelerationStructure>(scene, precision, monitor);
     }
 
     void add_few_triangles() {
@@ -310,7 +245,7 @@ struct RayCaster::Implementation {
             RTCRayHit found{ray, {}};
             found.hit.geomID = RTC_INVALID_GEOMETRY_ID;
             rtcIntersect1(embree_scene, &context, &found);
-            if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID || !grazed_edges->is_beside(found)) return found;
+            if (found.hit.geomID == RTC_INVALID_GEOMETRY_ID || !grazed_edges.is_beside(found)) return found;
             ray.tnear = std::nextafter(found.ray.tfar, kInfinity);
         }
     }
@@ -319,7 +254,7 @@ struct RayCaster::Implementation {
     void pass_edges(RayHitPacket& packet, const RayPacket::Floats& ends) const {
         if (!GrazedEdges::any_near_edge(packet)) return;
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            if (packet.object[i] == kNothing || !grazed_edges->is_beside(met_by(packet, i))) continue;
+            if (packet.object[i] == kNothing || !grazed_edges.is_beside(met_by(packet, i))) continue;
             const float start = packet.ray.start[i];
             packet.ray.start[i] = std::nextafter(packet.ray.end[i], kInfinity);
             packet.ray.end[i] = ends[i];
@@ -383,7 +318,11 @@ struct RayCaster::Implementation {
 };
 
 RayCaster::RayCaster(const Scene& scene, const Monitor& monitor, std::span<const Vec3> measured)
-    : implementation_(std::make_unique<Implementation>(scene, monitor, measured)) {}
+    : implementation_(std::make_unique<Implementation>(scene, monitor, measured, nullptr)) {}
+RayCaster::RayCaster(const RayCaster& similar, const Scene& scene, const Monitor& monitor,
+                     std::span<const Vec3> measured)
+    : implementation_(
+          std::make_unique<Implementation>(scene, monitor, measured, similar.implementation_->structure)) {}
 RayCaster::~RayCaster() = default;
 
 const Vec3& RayCaster::center() const { return implementation_->center; }
@@ -443,7 +382,7 @@ void RayCaster::closest(RayHitPacket& packet, const LaneMask& lanes, Coherence c
     const RTCScene embree_scene = implementation_->embree_scene;
     const RayPacket::Floats ends = packet.ray.end;
     packet.object.fill(kNothing);
-    switch (implementation_->packet_width) {
+    switch (implementation_->structure->packet_width) {
         case 16:
             rtcIntersect16(lanes.data(), embree_scene, &context, reinterpret_cast<RTCRayHit16*>(&packet));
             break;
@@ -471,7 +410,7 @@ void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) cons
         surfaces.object[i] = hits.object[i];
         surfaces.is_smooth[i] = 0;
         if (hits.object[i] == kNothing) continue;
-        const MetObject& met = implementation_->met_objects[hits.object[i]];
+        const MetObject& met = implementation_->structure->met_objects[hits.object[i]];
         if (met.vertices == nullptr) {
             is_curved[i] = -1;
             continue;
@@ -507,7 +446,7 @@ std::optional<TracedMesh> RayCaster::traced_mesh(ObjectId object) const {
 bool RayCaster::is_sealed(const Hit& hit) const {
     const Implementation& all = *implementation_;
     std::call_once(all.sealed_once, [&] { all.is_sealed = sealed_sides(all.scene); });
-    return all.is_sealed[object_side(hit.object, hit.on_front)];
+    return all.is_sealed[ObjectSide{hit.object, hit.on_front}.number()];
 }
 
 const Scene& RayCaster::scene() const { return implementation_->scene; }
@@ -527,7 +466,7 @@ void RayCaster::occlude(RayPacket& packet, const LaneMask& lanes, Coherence cohe
     if (implementation_->takes_single_rays()) return implementation_->occlude_by_single_rays(packet, lanes);
     RTCIntersectContext context = context_for(coherence);
     const RTCScene embree_scene = implementation_->embree_scene;
-    switch (implementation_->packet_width) {
+    switch (implementation_->structure->packet_width) {
         case 16:
             rtcOccluded16(lanes.data(), embree_scene, &context, reinterpret_cast<RTCRay16*>(&packet));
             break;

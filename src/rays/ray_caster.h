@@ -88,6 +88,11 @@ class RayCaster {
     /// where Embree fails (out of memory).
     explicit RayCaster(const Scene& scene, const Monitor& monitor = Monitor::none(),
                        std::span<const Vec3> measured = {});
+    /// The same for a scene with the objects and materials of `similar`'s, whose lights may differ, or for
+    /// other measured points: takes its acceleration structure where that has the precision. The scene of
+    /// `similar` must outlive this.
+    RayCaster(const RayCaster& similar, const Scene& scene, const Monitor& monitor,
+              std::span<const Vec3> measured);
     ~RayCaster();
     RayCaster(const RayCaster&) = delete;
     RayCaster& operator=(const RayCaster&) = delete;

@@ -6,7 +6,6 @@
 #include <limits>
 #include <optional>
 
-#include "checks/checks.h"
 #include "estimators/estimator_list.h"
 #include "run/campaign.h"
 #include "run/glare/glare.h"
@@ -274,9 +273,10 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
 }
 
 /// Begins a run, or continues one that has a plan. A part of a run has no results.
-RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors,
+RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> given_sensors,
                        const RunOptions& asked_options, ProgressSink* progress,
                        const std::atomic<bool>* interrupt, RunState& state, RunPart part) {
+    const Scene& scene = prepared.scene();
     if (has_levels_of_detail(scene)) {
         DetailedScene detailed = with_levels_of_detail(scene, given_sensors);
         RunResult result =
@@ -293,10 +293,9 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
     if (!begins) options.seed = state.plan.seed;
     require_measurable(given_sensors, method);
 
-    Session session(scene, given_sensors, asked_options, options, progress, interrupt);
+    Session session(prepared, given_sensors, asked_options, options, progress, interrupt);
     require_surfaces(given_sensors, session.caster());
-    const std::vector<Sensor> sensors =
-        with_units(checks::without_hidden_points(scene, session.caster(), given_sensors));
+    const std::vector<Sensor> sensors = with_units(session.without_hidden_points(given_sensors));
     const Wanted wanted(sensors);
     std::vector<Warning> of_scene = session.scene_warnings(sensors);
     estimators::Problem problem = session.problem();
@@ -342,13 +341,13 @@ RunResult run_readings(const Scene& scene, std::span<const Sensor> given_sensors
 
 }  // namespace
 
-RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   ProgressSink* progress, const std::atomic<bool>* interrupt, RunState* state) {
     RunState own;
     return run_readings(scene, sensors, options, progress, interrupt, state ? *state : own, {});
 }
 
-void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+void measure_part(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   RunPart part, RunState& state, ProgressSink* progress, const std::atomic<bool>* interrupt) {
     if (!options.paths)
         throw InputError("a part of a run needs a number of paths: it cannot tell the error of the whole");

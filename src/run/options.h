@@ -16,6 +16,9 @@ enum class Target { readings, mean };
 /// In the order of the enumeration.
 inline constexpr std::array<std::string_view, 2> kTargetNames{"readings", "mean"};
 
+/// Whether a run makes all checks, or only those that refuse scenes: for who shows no warnings.
+enum class Checks { all, refusals };
+
 struct RunOptions {
     std::string method = "auto";
     /// The run stops at this relative half-width of the 95 % interval, met by 95 % of each sensor's readings
@@ -33,6 +36,7 @@ struct RunOptions {
     std::uint64_t seed = 1;
     /// The number of threads; 0: all that the machine has.
     int threads = 0;
+    Checks checks = Checks::all;
     /// The number of independent repetitions, from which standard errors of readings are estimated (theory
     /// 6). Absent: 8 where readings lie side by side in large grids, else 32.
     std::optional<int> replicates;

@@ -105,7 +105,7 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
 }
 
 /// Begins a picture, or continues one whose sums have a plan. `options`: `asked` with defaults.
-RenderResult render_by(const PictureMethod& method, const Scene& scene, const Sensor& sensor,
+RenderResult render_by(const PictureMethod& method, const PreparedScene& scene, const Sensor& sensor,
                        const RunOptions& asked, const RunOptions& options, PictureSink* sink,
                        const std::atomic<bool>* interrupt, PictureSums& sums) {
     const Camera& camera = *sensor.camera();
@@ -143,10 +143,10 @@ RenderResult render_by(const PictureMethod& method, const Scene& scene, const Se
 
 }  // namespace
 
-RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& asked_options,
+RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunOptions& asked_options,
                     PictureSink* sink, const std::atomic<bool>* interrupt, PictureSums* state) {
-    if (has_levels_of_detail(scene)) {
-        DetailedScene detailed = with_levels_of_detail(scene, {&camera, 1});
+    if (has_levels_of_detail(scene.scene())) {
+        DetailedScene detailed = with_levels_of_detail(scene.scene(), {&camera, 1});
         RenderResult result = render(detailed.scene, camera, asked_options, sink, interrupt, state);
         result.levels_of_detail = std::move(detailed.levels);
         return result;

@@ -8,6 +8,7 @@
 
 #include "run/options.h"
 #include "run/plan.h"
+#include "run/prepared_scene.h"
 #include "run/result.h"
 #include "scene/light_groups.h"
 #include "scene/scene.h"
@@ -55,6 +56,8 @@ class PictureSink : public ProgressSink {
     virtual void show(const Pixels& pixels) = 0;
 };
 
+// Runs take a scene, or a prepared one, which spares later runs the set-up that they have in common.
+
 // Readings.
 
 /// Measures all sensors at once. Without any limit in the options, to an error of 1 % or for a minute. The
@@ -68,14 +71,14 @@ class PictureSink : public ProgressSink {
 /// it. The other options must be those that it began with. A run that stopped by its error, by time or by the
 /// user then gives the bits of a run in one go; so do parts that were merged. One that ended at its number of
 /// paths between two error estimates goes on with batches of other lengths, so that last bits may differ.
-RunResult measure(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   RunState* state = nullptr);
 
 /// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.
 /// Throws as measure() does, and std::invalid_argument where the plan is not complete. All parts need the
 /// same options.
-void measure_part(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+void measure_part(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
                   RunPart part, RunState& state, ProgressSink* progress = nullptr,
                   const std::atomic<bool>* interrupt = nullptr);
 
@@ -84,7 +87,7 @@ void measure_part(const Scene& scene, std::span<const Sensor> sensors, const Run
 /// Renders one camera. Without any limit, for a minute. The result depends on scene, camera, method, bounces
 /// and seed, and on the passes done: not on threads. `interrupt` ends the run early, with a result. Throws as
 /// measure() does. `state`: may be null; it is continued as the state of measure() is.
-RenderResult render(const Scene& scene, const Sensor& camera, const RunOptions& options,
+RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
                     PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr,
                     PictureSums* state = nullptr);
 

@@ -130,27 +130,39 @@ void require_mostly_finite(std::uint64_t invalid, double all) {
         "{} of {} samples are not finite: this is a defect of Stilb, please report the scene", invalid, all));
 }
 
-Session::Session(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked,
+Session::Session(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& asked,
                  const RunOptions& options, ProgressSink* sink, const std::atomic<bool>* interrupt)
-    : scene_(scene),
+    : prepared_(scene),
       options_(options),
       sink_(sink),
       interrupt_(interrupt),
       monitor_(interrupt, deadline_of(asked), report_to(sink, clock_)),
-      caster_(scene, monitor_, sensors::measured_points(sensors)),
+      caster_(prepared_.caster(sensors::measured_points(sensors), monitor_)),
       pool_(options.threads) {}
 
-std::vector<Warning> Session::scene_warnings(std::span<const Sensor> sensors) const {
+const checks::Enclosures& Session::enclosures() {
+    if (!enclosures_) enclosures_.emplace(scene(), caster(), prepared_.findings());
+    return *enclosures_;
+}
+
+std::vector<Sensor> Session::without_hidden_points(std::span<const Sensor> sensors) {
+    const auto is_area = [](const Sensor& sensor) { return std::holds_alternative<Area>(sensor.kind); };
+    if (std::ranges::none_of(sensors, is_area)) return {sensors.begin(), sensors.end()};
+    return checks::without_hidden_points(scene(), caster(), enclosures(), sensors);
+}
+
+std::vector<Warning> Session::scene_warnings(std::span<const Sensor> sensors) {
     monitor_.report("checks", 0);
     if (!options_.bounces) {
-        if (const auto endless = checks::endless_light(scene_, caster_)) throw InputError(*endless);
+        if (const auto endless = checks::endless_light(scene(), caster())) throw InputError(*endless);
     }
-    return checks::scene_warnings(scene_, caster_, checks::Enclosures(scene_, caster_), sensors);
+    if (options_.checks == Checks::refusals) return {};
+    return checks::scene_warnings(scene(), caster(), enclosures(), sensors);
 }
 
 estimators::Problem Session::problem() const {
-    return {.scene = scene_,
-            .caster = caster_,
+    return {.scene = scene(),
+            .caster = caster(),
             .max_reflections = options_.bounces.value_or(transport::kUnlimited),
             .patches = options_.patches,
             .monitor = monitor_};
@@ -176,7 +188,7 @@ void Session::finish(RunSummary& summary) const {
     summary.method = options_.method;
     summary.seed = options_.seed;
     summary.elapsed_s = clock_.elapsed_s();
-    summary.maintenance = scene::maintenance_factors(scene_);
+    summary.maintenance = scene::maintenance_factors(scene());
 }
 
 }  // namespace stilb::run

@@ -6,13 +6,16 @@
 #include <chrono>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 
 #include "base/monitor.h"
 #include "base/parallel.h"
 #include "base/warning.h"
+#include "checks/checks.h"
 #include "estimators/estimator.h"
 #include "run/options.h"
+#include "run/prepared_scene.h"
 #include "run/result.h"
 #include "run/run.h"
 
@@ -111,16 +114,18 @@ class Session {
   public:
     /// `sensors`: those that are measured, or none. `asked` are the user's options, `options` those with
     /// defaults.
-    Session(const Scene& scene, std::span<const Sensor> sensors, const RunOptions& asked,
+    Session(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& asked,
             const RunOptions& options, ProgressSink* sink, const std::atomic<bool>* interrupt);
     Session(const Session&) = delete;
     Session& operator=(const Session&) = delete;
 
-    const rays::RayCaster& caster() const { return caster_; }
+    const rays::RayCaster& caster() const { return *caster_; }
     const Monitor& monitor() const { return monitor_; }
-    /// The warnings of all checks (checks/checks.h). They belong before the samples: so they count in the
-    /// time limit.
-    std::vector<Warning> scene_warnings(std::span<const Sensor> sensors) const;
+    /// As checks::without_hidden_points().
+    std::vector<Sensor> without_hidden_points(std::span<const Sensor> sensors);
+    /// The warnings of all checks (checks/checks.h), unless the options do without. They belong before the
+    /// samples: so they count in the time limit. Throws InputError where light finds no end.
+    std::vector<Warning> scene_warnings(std::span<const Sensor> sensors);
     /// The problem without measurands and camera.
     estimators::Problem problem() const;
 
@@ -134,13 +139,17 @@ class Session {
     void finish(RunSummary& summary) const;
 
   private:
+    const Scene& scene() const { return prepared_.scene(); }
+    const checks::Enclosures& enclosures();
+
     Clock clock_;
-    const Scene& scene_;
+    const PreparedScene& prepared_;
     RunOptions options_;
     ProgressSink* sink_;
     const std::atomic<bool>* interrupt_;
     Monitor monitor_;
-    rays::RayCaster caster_;
+    std::shared_ptr<const rays::RayCaster> caster_;
+    std::optional<checks::Enclosures> enclosures_;
     ThreadPool pool_;
 };
 

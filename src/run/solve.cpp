@@ -139,7 +139,7 @@ class Walks final : public Work {
         const std::vector<bool> is_sealed = sealed_sides(transport_.scene);
         for (const std::uint32_t side : sums_->layout().sides()) {
             const ObjectId object = patches.object_of(patches.patch_of(side));
-            if (is_sealed[object_side(object, patches.is_front(side))]) continue;
+            if (is_sealed[ObjectSide{object, patches.is_front(side)}.number()]) continue;
             const Rgb received_lx = illuminance_lx(side);
             light.lx[side] = received_lx.luminance();
             light.is_lit[side] = light.is_lit[side] || received_lx.max() > 0;
@@ -189,7 +189,7 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
     }
     const estimators::FirstShotVariant variant =
         options.patches.first_shot.variant.value_or(estimators::kUsualFirstShot);
-    estimators::require_first_shot_of_points(scene, variant != estimators::FirstShotVariant::none, kMethod);
+    estimators::require_first_shot_of_points(scene, variant, kMethod);
     if (variant == estimators::FirstShotVariant::incoming || variant == estimators::FirstShotVariant::none)
         return;
     throw InputError(
@@ -200,13 +200,14 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
 
 }  // namespace
 
-SolveResult solve(const Scene& scene, const RunOptions& asked_options, int degree, ProgressSink* progress,
-                  const std::atomic<bool>* interrupt, SolutionSink* sink) {
+SolveResult solve(const PreparedScene& prepared, const RunOptions& asked_options, int degree,
+                  ProgressSink* progress, const std::atomic<bool>* interrupt, SolutionSink* sink) {
+    const Scene& scene = prepared.scene();
     require_valid(asked_options);
     require_storable(scene, asked_options, degree);
     RunOptions options = with_solution_target(asked_options);
     options.method = kMethod;
-    Session session(scene, {}, asked_options, options, progress, interrupt);
+    Session session(prepared, {}, asked_options, options, progress, interrupt);
     std::vector<Warning> of_scene = session.scene_warnings({});
     if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;

@@ -7,6 +7,7 @@
 
 #include "estimators/patch_light/solution/patch_solution.h"
 #include "run/options.h"
+#include "run/prepared_scene.h"
 #include "run/result.h"
 #include "run/run.h"
 #include "scene/scene.h"
@@ -44,7 +45,7 @@ inline constexpr std::size_t kMostFinePatches = 60'000;
 /// patches, degree and seed, and on the steps done: not on threads. `interrupt` ends the run early, with a
 /// result. Throws as measure(), and InputError for first shots that cannot be stored: all but incoming and
 /// none.
-SolveResult solve(const Scene& scene, const RunOptions& options, int degree = kDefaultDegree,
+SolveResult solve(const PreparedScene& scene, const RunOptions& options, int degree = kDefaultDegree,
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   SolutionSink* sink = nullptr);
 

@@ -70,7 +70,7 @@ std::vector<bool> sealed_sides(const Scene& scene) {
         const bool contains_light = tree.any_meeting(bounds_of(object.shape), [&](std::uint32_t lamp) {
             return lamps.objects[lamp] != ObjectId{i} || *inside;
         });
-        if (!contains_light) is_sealed[object_side(ObjectId{i}, *inside)] = true;
+        if (!contains_light) is_sealed[ObjectSide{ObjectId{i}, *inside}.number()] = true;
     }
     return is_sealed;
 }

@@ -75,13 +75,13 @@ void LiveWalk::work() {
 
 void LiveWalk::solve() {
     result_ = run::solve(file_.scene, options_, degree_, this, &is_interrupted_, this);
-    make_light(result_->solution, *result_, true);
+    make_light(result_->solution, *result_);
 }
 
 void LiveWalk::show_solved() {
     const rays::RayCaster caster(file_.scene);
     make_scene(caster, result_->solution);
-    make_light(result_->solution, *result_, true);
+    make_light(result_->solution, *result_);
 }
 
 void LiveWalk::make_scene(const rays::RayCaster& caster, const estimators::PatchSolution& solution) {
@@ -95,14 +95,13 @@ void LiveWalk::make_scene(const rays::RayCaster& caster, const estimators::Patch
     scene_ = std::move(bytes);
 }
 
-void LiveWalk::make_light(const estimators::PatchSolution& solution, const RunSummary& summary,
-                          bool is_done) {
+void LiveWalk::make_light(const estimators::PatchSolution& solution, const RunSummary& summary) {
     // Only the thread that works changes the version.
     const LightState state{.version = state_.light + 1,
                            .steps = summary.samples,
                            .error = summary.attained_error,
                            .elapsed_s = summary.elapsed_s,
-                           .done = is_done};
+                           .done = result_.has_value()};
     auto bytes = std::make_shared<const std::string>(light_data(solution, state));
     const std::lock_guard lock(mutex_);
     light_ = std::move(bytes);
@@ -128,7 +127,7 @@ bool LiveWalk::wants_solution() {
 void LiveWalk::show(const estimators::PatchSolution& solution, const RunSummary& so_far) {
     RunSummary summary = so_far;
     summary.elapsed_s = elapsed_s();
-    make_light(solution, summary, false);
+    make_light(solution, summary);
     // The time since the light was asked for counts, too: the run made a solution for it.
     pace_.add(wanted_, Pace::Clock::now());
 }

@@ -71,7 +71,7 @@ class LiveWalk final : private SolutionSink, private ProgressSink {
     void solve();
     void show_solved();
     void make_scene(const rays::RayCaster& caster, const estimators::PatchSolution& solution);
-    void make_light(const estimators::PatchSolution& solution, const RunSummary& summary, bool is_done);
+    void make_light(const estimators::PatchSolution& solution, const RunSummary& summary);
     void change(const std::function<void(State&)>& change);
 
     // The run calls these from its threads.

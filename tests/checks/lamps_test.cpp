@@ -165,7 +165,7 @@ TEST(CutLamps, DoNotHideOtherHoles) {
     const ObjectId body = add_object(scene, ball, diffuse(0.5));
     scene::cut_out(scene, body, std::vector<std::uint32_t>{100}, "ball (lamp)");
     const rays::RayCaster caster(scene);
-    const Texts warnings = hole_warnings(scene, Enclosures(scene, caster).components());
+    const Texts warnings = SceneFindings(scene).holes;
     ASSERT_EQ(warnings.size(), 1u);
     EXPECT_NE(warnings[0].find("it nearly closes, except for 3 open edges"), std::string::npos)
         << warnings[0];
@@ -195,7 +195,8 @@ TEST(Lamps, AreasInOnePlaceAddUp) {
               Texts{"lights \"0\", \"1\" are alike and in one place, (1.5, 1.5, 2): their "
                     "light adds up. Remove all but one."});
     const rays::RayCaster caster(scene);
-    EXPECT_EQ(overlap_warnings(scene, caster, {}), Texts{}) << "one warning for one mistake";
+    EXPECT_EQ(overlap_warnings(scene, caster, SceneFindings(scene).overlaps, {}), Texts{})
+        << "one warning for one mistake";
     Scene back_to_back = room();
     add_area_light(back_to_back, panel, Rgb::grey(100));
     add_area_light(back_to_back, Rectangle{panel.corner, panel.edge_v, panel.edge_u}, Rgb::grey(100));

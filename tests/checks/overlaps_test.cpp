@@ -24,7 +24,7 @@ Scene room_with(const std::vector<Object>& objects) {
 
 std::vector<std::string> warnings_of_overlaps(const Scene& scene, const std::vector<Sensor>& sensors = {}) {
     const rays::RayCaster caster(scene);
-    return overlap_warnings(scene, caster, sensors);
+    return overlap_warnings(scene, caster, SceneFindings(scene).overlaps, sensors);
 }
 
 std::vector<Overlap> overlaps_of(const Scene& scene) {

@@ -116,7 +116,8 @@ TEST_F(SpotTest, FactorsOfEveryKindOfLight) {
         std::string(kSpotRoom) + "[lights.sky]\ntype = \"environment\"\nluminance = 100\n";
     const io::SceneFile file = io::read_scene(sky, "s.toml", ".");
     const std::array factors{LightFactor{"sky", Rgb::grey(3)}, LightFactor{"panel", {{1.0, 2.0, 3.0}}}};
-    const Scene scene = with_factors(file.scene, factors);
+    const LightGroups groups = scene::light_groups(file.scene);
+    const Scene scene = with_factors(file.scene, groups, scene::factors_of_groups(factors, groups.names));
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Rgb was = scene::flux_lm(file.scene, file.scene.lights[i]),
                   is = scene::flux_lm(scene, scene.lights[i]);
@@ -134,8 +135,7 @@ TEST_F(SpotTest, FactorsOfAPanorama) {
     lights::Panorama::Image image{4, 2, std::vector<std::array<float, 3>>(8, {1.0F, 2.0F, 4.0F})};
     scene.lights = {
         {"sky", lights::EnvironmentLight{{}, std::make_shared<lights::Panorama>(std::move(image))}}};
-    const std::array factors{LightFactor{"sky", {{0.5, 0.25, 2.0}}}};
-    const Scene dimmed = with_factors(scene, factors);
+    const Scene dimmed = with_factors(scene, scene::light_groups(scene), std::array{Rgb{{0.5, 0.25, 2.0}}});
     const auto& sky = std::get<lights::EnvironmentLight>(dimmed.lights[0].source);
     EXPECT_EQ(sky.panorama->luminance_cd_m2({0, 0, 1}), (Rgb{{0.5, 0.5, 8.0}}));
 }

@@ -79,16 +79,14 @@ class LocalReadings {
           stands_for_(problem.stands_for),
           paths_per_selected_(transport.split == Split::balanced ? paths_per_selected(all_receivers()) : 1),
           selected_per_ray_(most_selected_per_ray(all_receivers())),
-          is_guided_(guide && !seen_.receivers.empty()),
+          guided_(guided_readings(guide)),
           plans_(plans(problem)),
           tiles_(tiles_of(connected_receivers(), constants_per_m2(plans_.of_receivers), transport_.caster,
                           transport_.max_reflections)),
           connections_(transport_.caster, tiles_, transport_.monitor, channels_),
           gather_(transport_.caster, transport_.tracer, tiles_, plans_.of_receivers, transport_.monitor,
                   channels_) {
-        if (!is_guided_) return;
-        guided_.emplace(*guide, seen_.receivers, seen_.dark, transport_.monitor);
-        guided_->add_known(seen_.known_part, seen_.known_parts);
+        if (guided_) guided_->add_known(seen_.known_part, seen_.known_parts);
     }
 
     void run_batch(const Batch& batch, Tally& sums) const {
@@ -170,7 +168,7 @@ class LocalReadings {
     std::uint64_t light_paths_per_direct_sample(std::size_t tile) const {
         if (guided_) return 1;
         const std::uint64_t selected =
-            paths_per_direct_.empty() ? kPathsPerDirectSample : paths_per_direct_[tile];
+            plans_.paths_per_direct.empty() ? kPathsPerDirectSample : plans_.paths_per_direct[tile];
         return selected * paths_per_selected_;
     }
 
@@ -319,13 +317,18 @@ class LocalReadings {
         }
     }
 
-    /// Those of connections of light paths: a guess has receivers of its own.
-    std::span<const transport::Receiver> connected_receivers() const {
-        return is_guided_ ? std::span<const transport::Receiver>() : seen_.receivers;
+    std::optional<GuidedReadings> guided_readings(const GuidedLight* guide) const {
+        if (!guide || seen_.receivers.empty()) return std::nullopt;
+        return std::optional<GuidedReadings>(std::in_place, *guide, seen_.receivers, seen_.dark,
+                                             transport_.monitor);
     }
 
-    /// Also plans the samples of direct light.
-    SplitPlans plans(const Problem& problem) {
+    /// Those of connections of light paths: a guess has receivers of its own.
+    std::span<const transport::Receiver> connected_receivers() const {
+        return guided_ ? std::span<const transport::Receiver>() : seen_.receivers;
+    }
+
+    SplitPlans plans(const Problem& problem) const {
         if (connected_receivers().empty()) return {};
         if (transport_.split == Split::none) {
             return {std::vector<SplitPlan>(seen_.receivers.size(),
@@ -348,8 +351,8 @@ class LocalReadings {
                                stands_for_};
         SplitPlans plans = plan_splits(transport_.caster, transport_.tracer, seen_.receivers, weights, pilot,
                                        key.derived(PreparationStream::plan), problem.monitor);
-        paths_per_direct_ = plan_direct(seen_.receivers, seen_.direct.remainders, weights, of_direct, plans,
-                                        std::min(kMostPathsPerDirectSample, selected_per_ray_));
+        plans.paths_per_direct = plan_direct(seen_.receivers, seen_.direct.remainders, weights, of_direct,
+                                             plans, std::min(kMostPathsPerDirectSample, selected_per_ray_));
         for (SplitPlan& plan : plans.of_receivers) plan.paths_per_ray *= paths_per_selected_;
         return plans;
     }
@@ -393,13 +396,11 @@ class LocalReadings {
     Reception seen_;
     double stands_for_;
     std::uint64_t paths_per_selected_, selected_per_ray_;
-    bool is_guided_ = false;
-    std::vector<std::uint64_t> paths_per_direct_;  ///< selected ones, for each tile; of a plan
+    std::optional<GuidedReadings> guided_;
     SplitPlans plans_;
     std::vector<PointTile> tiles_;
     Connections connections_;
     Gather gather_;
-    std::optional<GuidedReadings> guided_;
 };
 
 /// A scene with its guess of the light, if it has one. Pilots and the run share it.

@@ -30,6 +30,8 @@ struct SplitPlans {
     /// cost. The variance is the sum over the readings of weight variance / value^2. In the best plan, other
     /// samples are worth their time as much.
     double variance_per_cost = 0;
+    /// Selected light paths for each sample of direct light, by tile; empty where nothing plans them.
+    std::vector<std::uint64_t> paths_per_direct{};
 };
 
 /// An estimate of the light before planning, and its sampling.

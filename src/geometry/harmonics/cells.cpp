@@ -280,18 +280,17 @@ double HarmonicCells::root_on(const Line& line, std::size_t number) const {
     const double rest = double{cell.rest}, da = std::abs(line.da), db = std::abs(line.db);
     if (parabola.least() > rest || parabola.greatest() < -rest) return kInfinity;
     const auto excess = [&](double x) { return line.excess_of(polynomials_[number], x); };
-    const auto is_negative_at = [&](double x, double about) {
-        return (std::abs(about) > rest ? about : excess(x).first) < 0;
+    const auto sign_at = [&](double x, double about) {
+        return math::sign_of(std::abs(about) > rest ? about : excess(x).first);
     };
-    const bool starts_negative = is_negative_at(0, parabola.first);
+    const math::Sign at_start = sign_at(0, parabola.first);
     const double curvature = 2 * std::abs(parabola.bend) + double{cell.rest_aa} * da * da +
                              2 * double{cell.rest_ab} * da * db + double{cell.rest_bb} * db * db;
     if (parabola.least_slope() > double{cell.rest_a} * da + double{cell.rest_b} * db) {
-        if (starts_negative == is_negative_at(1, parabola.last())) return kInfinity;
-        return math::root_between(excess, curvature, 0, 1, starts_negative,
-                                  std::clamp(parabola.root(), 0.0, 1.0));
+        if (at_start == sign_at(1, parabola.last())) return kInfinity;
+        return math::root_between(excess, curvature, 0, 1, at_start, std::clamp(parabola.root(), 0.0, 1.0));
     }
-    return math::first_root(excess, curvature, kNarrowest, 0, 1, starts_negative).value_or(kInfinity);
+    return math::first_root(excess, curvature, kNarrowest, 0, 1, at_start).value_or(kInfinity);
 }
 
 double HarmonicCells::crossing(std::size_t number, const Vec3& origin, const Vec3& direction, double start,

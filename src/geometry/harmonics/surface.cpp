@@ -107,10 +107,10 @@ std::optional<HarmonicCrossing> HarmonicSurface::crossing_of_arc(const Line& lin
         return std::pair(value * cosine - line.offset, dot(gradient, turn) * cosine - value * sine);
     };
     const double from = std::atan(low / line.offset), to = std::atan(high / line.offset);
-    const bool is_outside = depth(from).first < 0;
-    const auto angle = math::first_root(depth, curvature, kNarrowest, from, to, is_outside);
+    const math::Sign at_start = math::sign_of(depth(from).first);
+    const auto angle = math::first_root(depth, curvature, kNarrowest, from, to, at_start);
     if (!angle) return std::nullopt;
-    return line.crossing(line.offset * std::tan(*angle), is_outside);
+    return line.crossing(line.offset * std::tan(*angle), at_start == math::Sign::negative);
 }
 
 namespace {

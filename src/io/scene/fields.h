@@ -84,7 +84,6 @@ using Keys = std::vector<std::string_view>;
 
 // The parts that do not depend on the type.
 
-Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool warns_of_length);
 /// Reads the one of the keys "position", "points", "positions" and "array" that is given.
 std::vector<Vec3> read_positions(const TomlTable& table);
 std::vector<MeasuringPoint> read_measuring_points(const FieldSource& source);
@@ -188,7 +187,8 @@ void read_field(const sensors::TargetField<Owner>& field, const FieldSource& sou
 template <typename Owner, typename Value>
 void read_field(const sensors::DirectionField<Owner, Value>& field, const FieldSource& source, Owner& owner) {
     if (is_left_out(source, field.key, field.presence)) return;
-    owner.*field.member = read_direction_field(source, field.key, field.warns_of_length);
+    const TomlItem item = source.table.at(field.key);
+    owner.*field.member = field.warns_of_length ? read_direction(item, source.warnings) : item.direction();
 }
 template <typename Owner>
 void read_field(const sensors::PositionsField<Owner>& field, const FieldSource& source, Owner& owner) {

@@ -126,11 +126,6 @@ void resolve(const TomlTable& table, const std::string& name, std::vector<Sensor
 
 }  // namespace
 
-Vec3 read_direction_field(const FieldSource& source, std::string_view key, bool warns_of_length) {
-    const TomlItem item = source.table.at(key);
-    return warns_of_length ? read_direction(item, source.warnings) : item.direction();
-}
-
 std::vector<Vec3> read_positions(const TomlTable& table) {
     const TomlTable::NamedItem given = table.one_of({"position", "points", "positions", "array"});
     if (given.key == "position") return {given.item.vector()};

@@ -86,7 +86,7 @@ LightShares light_shares(const patches::Patches& patches, const LightVertices& l
     double sum = 0;
     std::size_t lit = 0;
     for (std::size_t i = 0; i < 3; ++i) {
-        const std::uint32_t number = light.number_of(corners[i], patches.is_front(vertex.side));
+        const std::uint32_t number = light.number_of(corners[i], vertex.side);
         if (number == LightVertices::kDark) continue;
         ++lit;
         shares.vertices[i] = number;
@@ -104,7 +104,7 @@ std::vector<bool> sides_with_light(const patches::Patches& patches, const LightV
     std::vector<bool> carries(2 * patches.count());
     for (std::uint32_t side = 0; side < carries.size(); ++side) {
         carries[side] = std::ranges::any_of(patches.corners[patches.patch_of(side)], [&](auto corner) {
-            return light.number_of(corner, patches.is_front(side)) != LightVertices::kDark;
+            return light.number_of(corner, side) != LightVertices::kDark;
         });
     }
     return carries;

@@ -91,8 +91,9 @@ class DisplayBuilder {
     }
 
     std::size_t object_side_of(const SurfaceTriangle& triangle) const {
-        return object_side(scene_.patches.object_of(scene_.patches.patch_of(triangle.side)),
-                           scene_.patches.is_front(triangle.side));
+        const patches::Patches& patches = scene_.patches;
+        return ObjectSide{patches.object_of(patches.patch_of(triangle.side)), patches.is_front(triangle.side)}
+            .number();
     }
 
     /// Removes triangles that are dark, and remembers the sides of objects that are left.

@@ -57,7 +57,8 @@ std::vector<VertexLight::Sample> VertexLight::free_samples(const Vec3& position,
 
 bool VertexLight::is_covered(const Sample& sample) const {
     const auto hit = caster_.closest(sample.point.lifted, patches_.normal_of(sample.side));
-    return hit && (hit->distance_m < hair_m_ || !is_reached_[object_side(hit->object, hit->on_front)]);
+    return hit &&
+           (hit->distance_m < hair_m_ || !is_reached_[ObjectSide{hit->object, hit->on_front}.number()]);
 }
 
 bool VertexLight::are_divided(std::span<const Sample> samples) const {

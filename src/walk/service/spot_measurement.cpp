@@ -10,6 +10,7 @@
 #include <span>
 #include <utility>
 
+#include "base/monitor.h"
 #include "run/run.h"
 #include "sensors/sensor.h"
 #include "stilb/error.h"
@@ -19,8 +20,6 @@ namespace stilb::walk {
 namespace {
 
 constexpr double kError = 0.01, kTime_s = 2;
-/// For the acceleration structure and the light tree of large meshes.
-constexpr double kTimePerTriangle_s = 3e-6;
 /// A light with a smaller factor is off.
 constexpr double kLeastFactor = 1e-9;
 
@@ -32,15 +31,6 @@ std::vector<LightFactor> factors_of(const nlohmann::json& request) {
         throw InputError("\"factors\" must be an object of names of light groups and numbers.");
     for (const auto& [name, factor] : given->items()) factors.push_back({name, factor_of(factor, name)});
     return factors;
-}
-
-double triangles_in(const Scene& scene) {
-    double count = 0;
-    for (const Object& object : scene.objects) {
-        const geometry::Mesh* mesh = geometry::stored_mesh(object.shape);
-        if (mesh != nullptr) count += static_cast<double>(mesh->triangles.size());
-    }
-    return count;
 }
 
 Sensor sensor_of(const Measurand& measurand) {
@@ -77,13 +67,11 @@ std::string to_json(const SpotReading& reading) {
         .dump();
 }
 
-Scene with_factors(const Scene& scene, std::span<const LightFactor> factors) {
-    const LightGroups groups = scene::light_groups(scene);
-    const std::vector<Rgb> of_groups = scene::factors_of_groups(factors, groups.names);
+Scene with_factors(const Scene& scene, const LightGroups& groups, std::span<const Rgb> factors) {
     Scene changed = scene;
     changed.lights.clear();
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Rgb& factor = of_groups[groups.of_light[i]];
+        const Rgb& factor = factors[groups.of_light[i]];
         Light light = scene.lights[i];
         if (factor.max() < kLeastFactor) continue;
         if (factor != Rgb::grey(1)) light.source = lights::scaled(light.source, factor);
@@ -92,11 +80,22 @@ Scene with_factors(const Scene& scene, std::span<const LightFactor> factors) {
     return changed;
 }
 
-SpotMeter::SpotMeter(const Scene& scene, const RunOptions& options) : scene_(scene) {
+SpotMeter::SpotMeter(const Scene& scene, const RunOptions& options)
+    : scene_(scene), groups_(scene::light_groups(scene)) {
     options_.seed = options.seed;
     options_.threads = options.threads;
     options_.error = kError;
-    options_.time_s = kTime_s + kTimePerTriangle_s * triangles_in(scene);
+    options_.checks = run::Checks::refusals;
+    options_.time_s = kTime_s;
+}
+
+const run::PreparedScene& SpotMeter::lit_by(std::span<const LightFactor> factors) {
+    std::vector<Rgb> of_groups = scene::factors_of_groups(factors, groups_.names);
+    if (std::ranges::all_of(of_groups, [](const Rgb& factor) { return factor == Rgb::grey(1); }))
+        return scene_;
+    if (!relit_ || relit_->factors != of_groups)
+        relit_ = std::make_unique<const Relit>(scene_, groups_, std::move(of_groups));
+    return relit_->prepared;
 }
 
 SpotReading SpotMeter::measure(const SpotRequest& request) {
@@ -108,8 +107,10 @@ SpotReading SpotMeter::measure(const SpotRequest& request) {
     if (!lock) throw Cancelled("Other measurements are running. Try again in some seconds.");
 
     const std::array sensors{sensor_of(request.measurand)};
-    const RunResult result =
-        run::measure(with_factors(scene_, request.factors), sensors, options_, nullptr, &is_cancelled_);
+    const run::PreparedScene& scene = lit_by(request.factors);
+    // The first measurement builds the acceleration structure, which may take longer than the run.
+    scene.caster(sensors::measured_points(sensors), Monitor(&is_cancelled_, std::nullopt, {}));
+    const RunResult result = run::measure(scene, sensors, options_, nullptr, &is_cancelled_);
     const statistics::Estimate& estimate = result.sensors.front().readings.front().estimate;
     return {estimate.value, std::max(estimate.upper - estimate.value, estimate.value - estimate.lower),
             sensors.front().quantity().unit, result.elapsed_s};

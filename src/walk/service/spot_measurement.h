@@ -2,12 +2,16 @@
 #pragma once
 
 #include <atomic>
+#include <memory>
 #include <mutex>
+#include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "run/options.h"
+#include "run/prepared_scene.h"
 #include "scene/light_groups.h"
 #include "scene/scene.h"
 #include "sensors/measurand.h"
@@ -32,8 +36,9 @@ struct SpotReading {
 
 std::string to_json(const SpotReading& reading);
 
-/// The scene with its groups of lights dimmed and coloured. Throws InputError where a group has another name.
-Scene with_factors(const Scene& scene, std::span<const LightFactor> factors);
+/// The scene with its groups of lights dimmed and coloured, without those that are off. `factors`: of the
+/// groups.
+Scene with_factors(const Scene& scene, const LightGroups& groups, std::span<const Rgb> factors);
 
 /// Measures in one scene, one reading at a time.
 class SpotMeter {
@@ -41,15 +46,31 @@ class SpotMeter {
     /// The scene must outlive this. Of the options, seed and threads count.
     SpotMeter(const Scene& scene, const RunOptions& options);
 
-    /// To 1 %, or for two seconds (more where the scene takes time to set up). Callable from several threads.
-    /// Throws InputError where the scene cannot be measured so, Cancelled where there is no result in this
-    /// time, where others are measuring, or after cancel().
+    /// To 1 %, or for two seconds; the first measurement also builds what rays need. Callable from several
+    /// threads. Throws InputError where the scene cannot be measured so, or a group of lights has another
+    /// name; Cancelled where there is no result in this time, where others are measuring, or after cancel().
     SpotReading measure(const SpotRequest& request);
     /// Ends what is being measured, and all that comes.
     void cancel() { is_cancelled_ = true; }
 
   private:
-    const Scene& scene_;
+    const run::PreparedScene& lit_by(std::span<const LightFactor> factors);
+
+    /// The scene by the light of the last request.
+    struct Relit {
+        std::vector<Rgb> factors;  ///< of the groups
+        Scene scene;
+        run::PreparedScene prepared;
+
+        Relit(const run::PreparedScene& base, const LightGroups& groups, std::vector<Rgb> of_groups)
+            : factors(std::move(of_groups)),
+              scene(with_factors(base.scene(), groups, factors)),
+              prepared(scene, base) {}
+    };
+
+    run::PreparedScene scene_;
+    LightGroups groups_;
+    std::unique_ptr<const Relit> relit_;
     RunOptions options_;
     std::timed_mutex mutex_;
     std::atomic<bool> is_cancelled_ = false;

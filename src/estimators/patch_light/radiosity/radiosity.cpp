@@ -134,7 +134,7 @@ PatchTransport radiosity_transport(const Problem& problem) {
     require_no_light_from_outside(problem.scene, kRadiosity);
     require_all_reflections(problem.max_reflections, kRadiosity);
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
-    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kRadiosity);
+    require_first_shot_of_points(problem.scene, variant, kRadiosity);
     if (variant == FirstShotVariant::on_the_fly) {
         throw InputError(
             fmt::format("first shot \"{}\": method radiosity needs the light of small lights as a mean over "

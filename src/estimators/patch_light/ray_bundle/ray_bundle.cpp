@@ -20,7 +20,7 @@ constexpr std::string_view kRayBundle = "ray-bundle";
 PatchTransport bundle_transport(const Problem& problem) {
     const FirstShotVariant variant = problem.patches.first_shot.variant.value_or(kUsualFirstShot);
     require_all_reflections(problem.max_reflections, kRayBundle);
-    require_first_shot_of_points(problem.scene, variant != FirstShotVariant::none, kRayBundle);
+    require_first_shot_of_points(problem.scene, variant, kRayBundle);
     return {problem.scene, problem.caster, problem.patches, problem.monitor};
 }
 

@@ -138,7 +138,7 @@ void LightGather::find_origins(const std::vector<bool>& is_lit) {
             const Vec3 place = patches.center + Vec3(patches.vertices[corner]);
             const Vec3 inside = place + kShareToMiddle * (middle - place);
             for (const std::uint32_t side : {p, patches.other_side(p)}) {
-                const std::uint32_t number = vertices_.number_of(corner, patches.is_front(side));
+                const std::uint32_t number = vertices_.number_of(corner, side);
                 if (number == LightVertices::kDark) continue;
                 of_vertices[number].push_back(
                     {lifted_off(coarse_.scene, patches, coarse_.caster, side, inside),
@@ -190,14 +190,16 @@ void LightGather::add_direct_light() {
     const IncomingFirstShot* const first_shot = coarse_.first_shot.incoming();
     for (std::uint32_t p = 0; p < fine_.patches.count(); ++p) {
         const std::uint32_t parent = fine_.parents[p];
-        for (const bool is_front : {true, false}) {
-            const std::uint32_t side = is_front ? parent : coarse_.patches.other_side(parent);
+        for (const std::uint32_t side : {p, fine_.patches.other_side(p)}) {
+            const std::uint32_t of_parent =
+                fine_.patches.is_front(side) ? parent : coarse_.patches.other_side(parent);
             for (const std::uint32_t corner : fine_.patches.corners[p]) {
-                const std::uint32_t number = vertices_.number_of(corner, is_front);
+                const std::uint32_t number = vertices_.number_of(corner, side);
                 if (number == LightVertices::kDark) continue;
                 const double area_m2 = double{fine_.patches.areas_m2[p]} / 3;
                 area_m2_[number] += area_m2;
-                if (first_shot) direct_lx_[number] += area_m2 * first_shot->illuminance_lx(side).luminance();
+                if (first_shot)
+                    direct_lx_[number] += area_m2 * first_shot->illuminance_lx(of_parent).luminance();
             }
         }
     }
@@ -393,7 +395,7 @@ auto LightGather::lit_corners(const PatchLocation& location, std::uint32_t repli
     LitCorners lit;
     double sum = 0;
     for (std::size_t c = 0; c < 3; ++c) {
-        const std::uint32_t number = vertices_.number_of(corners[c], fine_.patches.is_front(location.side));
+        const std::uint32_t number = vertices_.number_of(corners[c], location.side);
         if (number == LightVertices::kDark || !(weights[c] > 0)) continue;
         lit.source_share += weights[c] * double{source_shares_[number * replicates_ + replicate]};
         sum += weights[c];

@@ -23,9 +23,9 @@ class LightVertices {
     static constexpr std::uint32_t kDark = ~0u;
 
     std::size_t count() const { return lit_.size(); }
-    /// kDark where the side carries no light.
-    std::uint32_t number_of(std::uint32_t vertex, bool is_front) const {
-        return numbers_[side_of(vertex, is_front)];
+    /// Of a corner of a patch, on this side of that. kDark where the side carries no light.
+    std::uint32_t number_of(std::uint32_t vertex, std::uint32_t side) const {
+        return numbers_[patches_->is_front(side) ? vertex : vertex + patches_->vertices.size()];
     }
     std::span<const std::uint32_t> sides() const { return lit_; }
     bool is_front(std::uint32_t number) const { return lit_[number] < patches_->vertices.size(); }
@@ -48,10 +48,6 @@ class LightVertices {
     std::uint32_t terms() const { return first_terms_.back(); }
 
   private:
-    std::size_t side_of(std::uint32_t vertex, bool is_front) const {
-        return is_front ? vertex : vertex + patches_->vertices.size();
-    }
-
     const patches::Patches* patches_;
     std::vector<std::uint32_t> lit_;
     std::vector<std::uint32_t> numbers_;  ///< per side of all vertices

@@ -109,8 +109,7 @@ class SolutionPicture final : public Estimator {
         Rgb sum;
         double weight = 0;
         for (std::size_t c = 0; c < 3; ++c) {
-            const std::uint32_t number = vertices_.number_of(solution_.patches.corners[patch][c],
-                                                             solution_.patches.is_front(seen.side));
+            const std::uint32_t number = vertices_.number_of(solution_.patches.corners[patch][c], seen.side);
             if (number == LightVertices::kDark) continue;
             sum += towards_camera_[number] *
                    (weights[c] * double{to_float(solution_.replicates[replicate][number])});

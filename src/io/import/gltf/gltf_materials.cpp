@@ -111,7 +111,7 @@ class MaterialReader {
     MeanSurface means(const tinygltf::Material& material, const BaseColour& base,
                       const SurfacePoints& points) {
         MeanSurface surface;
-        const auto colour = textures_.mean(base.texture, true, points, part_, kUnreadColour);
+        const auto colour = textures_.mean(base.texture, Texels::colours, points, part_, kUnreadColour);
         surface.base = base.factor * Rgb{{colour[0], colour[1], colour[2]}};
         surface.is_blended = material.alphaMode == "BLEND";
         surface.alpha = base.alpha * colour[3];
@@ -129,7 +129,7 @@ class MaterialReader {
     void read_metal(const tinygltf::PbrMetallicRoughness& pbr, const SurfacePoints& points,
                     MeanSurface& surface) {
         const auto rough =
-            textures_.mean(pbr.metallicRoughnessTexture, false, points, part_, kUnreadRoughness);
+            textures_.mean(pbr.metallicRoughnessTexture, Texels::numbers, points, part_, kUnreadRoughness);
         surface.metallic = checked(pbr.metallicFactor, 0, 1, "metallicFactor") * rough[2];
         surface.roughness = checked(pbr.roughnessFactor, 0, 1, "roughnessFactor") * rough[1];
     }
@@ -137,8 +137,8 @@ class MaterialReader {
     void read_specular_glossiness(const tinygltf::Value& table, const SurfacePoints& points,
                                   MeanSurface& surface) {
         constexpr std::array<double, 4> unread{0.04, 0.04, 0.04, 0.5};  // like plastic, half glossy
-        const auto map =
-            textures_.mean(texture_in(table, "specularGlossinessTexture"), true, points, part_, unread);
+        const auto map = textures_.mean(texture_in(table, "specularGlossinessTexture"), Texels::colours,
+                                        points, part_, unread);
         const Rgb specular = checked(rgb_in(table, "specularFactor", Rgb::grey(1)), 1, "specularFactor") *
                              Rgb{{map[0], map[1], map[2]}};
         const double glossiness =
@@ -157,8 +157,10 @@ class MaterialReader {
                 surface.ior = checked(ior, 1, 1e3, "ior");
         }
         if (const auto* table = find_extension(material.extensions, "KHR_materials_specular")) {
-            const auto share = textures_.mean(texture_in(*table, "specularTexture"), false, points, part_);
-            const auto tint = textures_.mean(texture_in(*table, "specularColorTexture"), true, points, part_);
+            const auto share =
+                textures_.mean(texture_in(*table, "specularTexture"), Texels::numbers, points, part_);
+            const auto tint =
+                textures_.mean(texture_in(*table, "specularColorTexture"), Texels::colours, points, part_);
             const Rgb colour =
                 rgb_in(*table, "specularColorFactor", Rgb::grey(1)) * Rgb{{tint[0], tint[1], tint[2]}};
             surface.specular = checked(number_in(*table, "specularFactor", 1), 0, 1, "specularFactor") *
@@ -168,7 +170,7 @@ class MaterialReader {
         }
         if (const auto* table = find_extension(material.extensions, "KHR_materials_transmission")) {
             const auto share =
-                textures_.mean(texture_in(*table, "transmissionTexture"), false, points, part_);
+                textures_.mean(texture_in(*table, "transmissionTexture"), Texels::numbers, points, part_);
             const double factor =
                 checked(number_in(*table, "transmissionFactor", 0), 0, 1, "transmissionFactor") * share[0];
             surface.transmission = (1 - surface.metallic) * factor;
@@ -188,7 +190,7 @@ class MaterialReader {
                        MeanSurface& surface) {
         const Rgb factor = checked(rgb_of(material.emissiveFactor, Rgb{}), 1e15, "emissiveFactor");
         if (!(factor.max() > 0)) return;
-        const auto colour = textures_.mean(material.emissiveTexture, true, points, part_);
+        const auto colour = textures_.mean(material.emissiveTexture, Texels::colours, points, part_);
         double strength_cd_m2 = 1;
         const auto* table = find_extension(material.extensions, "KHR_materials_emissive_strength");
         if (table != nullptr)

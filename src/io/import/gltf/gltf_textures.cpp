@@ -125,14 +125,14 @@ std::optional<TextureMap> Textures::map_of(const tinygltf::TextureInfo& info, co
     return TextureMap{std::move(picture), wrap_of(wrap.wrapS), wrap_of(wrap.wrapT)};
 }
 
-std::array<double, 4> Textures::mean(const tinygltf::TextureInfo& info, bool is_colour,
+std::array<double, 4> Textures::mean(const tinygltf::TextureInfo& info, Texels texels,
                                      const SurfacePoints& surface, const std::string& part,
                                      const std::array<double, 4>& unread) {
     if (info.index < 0) return {1, 1, 1, 1};
     const std::optional<TextureMap> map = map_of(info, part);
     if (!map) return unread;
     // Where the file says nothing about its place, the whole picture counts.
-    return mean_of(*map, surface.uv(uv_transform(info)), is_colour);
+    return mean_of(*map, surface.uv(uv_transform(info)), texels);
 }
 
 }  // namespace stilb::io::gltf

@@ -51,11 +51,9 @@ class Textures {
     /// Nothing where there is no texture, or it cannot be read (which is a warning).
     std::optional<TextureMap> map_of(const tinygltf::TextureInfo& info, const std::string& part);
     /// The means of red, green, blue and alpha (from 0 to 1) of a texture over the surface; ones where there
-    /// is none, `unread` where it cannot be read. `is_colour`: red, green and blue are stored by the tone
-    /// curve of sRGB.
-    std::array<double, 4> mean(const tinygltf::TextureInfo& info, bool is_colour,
-                               const SurfacePoints& surface, const std::string& part,
-                               const std::array<double, 4>& unread = {1, 1, 1, 1});
+    /// is none, `unread` where it cannot be read.
+    std::array<double, 4> mean(const tinygltf::TextureInfo& info, Texels texels, const SurfacePoints& surface,
+                               const std::string& part, const std::array<double, 4>& unread = {1, 1, 1, 1});
 
   private:
     std::shared_ptr<const Texture> picture_of(int index, const std::string& part);

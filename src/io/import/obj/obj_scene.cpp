@@ -170,20 +170,20 @@ class ObjMaterials {
         if (picture.file.empty()) return {1, 1, 1, 1};
         const std::optional<TextureMap> map = map_of(picture);
         if (!map) return {unread, unread, unread, unread};
-        return mean_over(triangles, picture, *map, true);
+        return mean_over(triangles, picture, *map, Texels::colours);
     }
 
     std::array<double, 4> mean_over(const std::vector<std::uint32_t>& triangles, const MtlPicture& picture,
-                                    const TextureMap& map, bool is_colour) const {
+                                    const TextureMap& map, Texels texels) const {
         std::vector<double> areas_m2;
         for (const std::uint32_t t : triangles) areas_m2.push_back(geometry::triangle_area_m2(mesh_.mesh, t));
         std::vector<Uv> places;
         for (const auto& [triangle, barycentric] : points_on_surface(areas_m2)) {
             const FacePlace place = place_of(triangles[triangle], picture);
-            if (!has_place(place)) return mean_of(map, {}, is_colour);
+            if (!has_place(place)) return mean_of(map, {}, texels);
             if (!is_in_hole(triangles[triangle], barycentric)) places.push_back(uv_at(place, barycentric));
         }
-        return mean_of(map, places, is_colour);
+        return mean_of(map, places, texels);
     }
 
     // Opacity
@@ -224,7 +224,7 @@ class ObjMaterials {
 
     double mean_opacity(const std::vector<std::uint32_t>& triangles, const MtlPicture& picture) {
         const std::optional<TextureMap> map = opacities_of(picture);
-        return map ? mean_over(triangles, picture, *map, false)[3] : 1;
+        return map ? mean_over(triangles, picture, *map, Texels::numbers)[3] : 1;
     }
 
     void cut_holes(MaterialId id, const std::vector<std::uint32_t>& triangles) {

@@ -85,7 +85,9 @@ class Assembly {
 
     void add_to_body(const Surface& surface, const Optics& optics) {
         const MaterialId material = material_of(optics);
-        if (auto shape = simple_shape(surface.kind, numbers_of(surface), optics.is_solid)) {
+        // Of a sheet both sides are alike.
+        const bool is_sphere = surface.kind == SurfaceKind::bubble && !optics.is_solid;
+        if (auto shape = simple_shape(is_sphere ? SurfaceKind::sphere : surface.kind, numbers_of(surface))) {
             scene_.add_object(surface.name, std::move(*shape), {material});
             return;
         }
@@ -147,7 +149,7 @@ class Assembly {
                                 "the brightness of a sky by direction is left out; it is for sources.");
         if (surface.kind == SurfaceKind::sphere ||
             (surface.kind == SurfaceKind::ring && !is_one_body(optics))) {
-            if (auto shape = simple_shape(surface.kind, numbers_of(surface), true)) {
+            if (auto shape = simple_shape(surface.kind, numbers_of(surface))) {
                 lamp.shapes.emplace_back(surface.name, std::move(*shape));
                 return;
             }

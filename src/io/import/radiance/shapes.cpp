@@ -156,9 +156,8 @@ void add_mesh_triangle(std::span<const double> numbers, MeshBuilder& builder) {
 
 }  // namespace
 
-std::optional<Shape> simple_shape(SurfaceKind kind, std::span<const double> numbers, bool is_solid) {
-    if (kind == SurfaceKind::sphere || (kind == SurfaceKind::bubble && !is_solid))
-        return Sphere{vector_at(numbers, 0), numbers[3]};
+std::optional<Shape> simple_shape(SurfaceKind kind, std::span<const double> numbers) {
+    if (kind == SurfaceKind::sphere) return Sphere{vector_at(numbers, 0), numbers[3]};
     if (kind == SurfaceKind::ring && numbers[6] == 0)
         return Disk{vector_at(numbers, 0), normalized(vector_at(numbers, 3)), numbers[7]};
     return std::nullopt;

@@ -10,9 +10,8 @@
 
 namespace stilb::io::radiance {
 
-/// A sphere or a disk as such; nothing for other kinds. `is_solid`: bubbles, whose inside is their front,
-/// become meshes.
-std::optional<Shape> simple_shape(SurfaceKind kind, std::span<const double> numbers, bool is_solid);
+/// A sphere or a disk as such; nothing for other kinds: bubbles, whose inside is their front, become meshes.
+std::optional<Shape> simple_shape(SurfaceKind kind, std::span<const double> numbers);
 
 /// Adds the triangles of a flat surface: a polygon, or a ring.
 void add_flat(SurfaceKind kind, std::span<const double> numbers, MeshBuilder& builder);

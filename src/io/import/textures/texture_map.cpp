@@ -26,11 +26,11 @@ bool is_uv(const Uv& uv) {
 
 class TexelMean {
   public:
-    explicit TexelMean(bool is_colour) : is_colour_(is_colour) {}
+    explicit TexelMean(Texels texels) : texels_(texels) {}
 
     void add(const std::array<std::uint8_t, 4>& texel) {
         for (std::size_t c = 0; c < 4; ++c)
-            sum_[c] += is_colour_ && c < 3 ? linear_of_srgb(texel[c]) : texel[c] / 255.0;
+            sum_[c] += texels_ == Texels::colours && c < 3 ? linear_of_srgb(texel[c]) : texel[c] / 255.0;
         ++count_;
     }
     std::array<double, 4> value() const {
@@ -40,7 +40,7 @@ class TexelMean {
     }
 
   private:
-    bool is_colour_;
+    Texels texels_;
     std::array<double, 4> sum_{};
     std::size_t count_ = 0;
 };
@@ -94,8 +94,8 @@ std::vector<SurfacePoint> points_on_surface(std::span<const double> areas_m2) {
     return points;
 }
 
-std::array<double, 4> mean_of(const TextureMap& map, std::span<const Uv> places, bool is_colour) {
-    TexelMean mean(is_colour);
+std::array<double, 4> mean_of(const TextureMap& map, std::span<const Uv> places, Texels texels) {
+    TexelMean mean(texels);
     for (const Uv& uv : places) mean.add(map.at(uv));
     if (places.empty()) {
         for (const auto& texel : map.picture->texels) mean.add(texel);

@@ -52,8 +52,11 @@ struct SurfacePoint {
 };
 std::vector<SurfacePoint> points_on_surface(std::span<const double> areas_m2);
 
+/// What red, green and blue of a picture are: colours by the tone curve of sRGB, or numbers as they are.
+enum class Texels { colours, numbers };
+
 /// The means of red, green, blue and alpha (from 0 to 1) at these texture coordinates, or over the whole
-/// picture where there are none. `is_colour`: red, green and blue are stored by the tone curve of sRGB.
-std::array<double, 4> mean_of(const TextureMap& map, std::span<const Uv> places, bool is_colour);
+/// picture where there are none.
+std::array<double, 4> mean_of(const TextureMap& map, std::span<const Uv> places, Texels texels);
 
 }  // namespace stilb::io
