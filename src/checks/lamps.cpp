@@ -124,7 +124,7 @@ std::vector<std::string> surrounded(std::span<const Sensor> sensors, ObjectId ob
                                     const rays::RayCaster& caster) {
     std::vector<std::string> names;
     for (const Sensor& sensor : sensors.first(std::min(sensors.size(), kMostSensors))) {
-        if (surrounds(object, first_ray_of(sensor, caster).position, caster)) names.push_back(sensor.name);
+        if (surrounds(object, first_point_of(sensor, caster).lifted, caster)) names.push_back(sensor.name);
     }
     return names;
 }

@@ -37,9 +37,9 @@ class LuminaireEmitter {
     LuminaireEmitter(const Luminaire& light, const Surroundings& surroundings, const Lift& lift);
 
     Emission emit(math::SampleStream& stream) const;
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(const SurfacePoint& at) const;
 
     static constexpr std::string_view kNoun = "a luminaire";
     const Vec3& lifted() const { return lifted_; }

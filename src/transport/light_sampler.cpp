@@ -92,8 +92,8 @@ void LightSampler::set_choice_favours(const rays::RayCaster& caster) {
     const auto emit_one = [this](std::size_t light, math::SampleStream& stream) {
         return emit(light, stream);
     };
-    const auto rough_lx = [this](std::size_t light, const Vec3& position, const Vec3& normal) {
-        return rough_illuminance_lx(light, position, normal);
+    const auto rough_lx = [this](std::size_t light, const SurfacePoint& at) {
+        return rough_illuminance_lx(light, at);
     };
     choice_favours_ = choice_favours({flux_lm, emit_one, rough_lx, count(), outside_ != kNoLight}, caster);
 }
@@ -109,7 +109,7 @@ EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const 
             emission_favours_[choice.index] * favour};
 }
 
-std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,
+std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const SurfacePoint& at,
                                                            const std::array<double, 2>& u) const {
     std::optional<IncidentLight> incident =
         std::visit([&](const auto& emitter) { return emitter.sample_incident(at, u); }, emitters_[light]);
@@ -117,23 +117,24 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
     return incident;
 }
 
-double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const {
+double LightSampler::rough_illuminance_lx(std::size_t light, const SurfacePoint& at) const {
     if (is_made_elsewhere(light)) return 0;
     return choice_favours_[light] *
-           std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(from, normal); },
+           std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(at); },
                       emitters_[light]);
 }
 
-LightSampler::Choices::Choices(const LightSampler& lights, const Vec3& from, const Vec3& normal)
-    : lights_(lights), from_(from), normal_(normal) {
+LightSampler::Choices::Choices(const LightSampler& lights, const SurfacePoint& at)
+    : lights_(lights), at_(at) {
+    const auto rough_lx = lights.rough_at(at);
     if (lights.goes_by_tree()) {
-        cut_ = lights.tree_.cut(from, normal, rough());
-        if (lights.outside_ != kNoLight) outside_lx_ = rough()(lights.outside_);
+        cut_ = lights.tree_.cut(at, rough_lx);
+        if (lights.outside_ != kNoLight) outside_lx_ = rough_lx(lights.outside_);
         all_lx_ = outside_lx_ + cut_.total_lx();
         return;
     }
     for (std::uint32_t light = 0; light < lights.count(); ++light)
-        sums_lx_[light] = all_lx_ += rough()(light);
+        sums_lx_[light] = all_lx_ += rough_lx(light);
 }
 
 math::DiscreteChoice LightSampler::Choices::choose(double u) const {
@@ -141,7 +142,7 @@ math::DiscreteChoice LightSampler::Choices::choose(double u) const {
     const double outside = outside_lx_ / all_lx_;
     if (u < outside) return {lights_.outside_, outside, u / outside};
     const double rest = std::min((u - outside) / (1 - outside), math::kBelowOne);
-    math::DiscreteChoice choice = lights_.tree_.choose(cut_, from_, normal_, rest, rough());
+    math::DiscreteChoice choice = lights_.tree_.choose(cut_, at_, rest, lights_.rough_at(at_));
     choice.probability *= 1 - outside;
     return choice;
 }
@@ -149,7 +150,7 @@ math::DiscreteChoice LightSampler::Choices::choose(double u) const {
 std::optional<IncidentLight> LightSampler::Choices::sample(const math::DiscreteChoice& choice,
                                                            const std::array<double, 2>& u,
                                                            std::uint32_t choices) const {
-    auto incident = lights_.sample_incident(choice.index, {from_, normal_}, u);
+    auto incident = lights_.sample_incident(choice.index, at_, u);
     if (incident) {
         const double expected = choices * choice.probability;
         incident->normal_illuminance_lx *= 1 / expected;
@@ -158,15 +159,14 @@ std::optional<IncidentLight> LightSampler::Choices::sample(const math::DiscreteC
     return incident;
 }
 
-double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
-    const auto rough_lx = [&](std::uint32_t other) { return rough_illuminance_lx(other, from, normal); };
-    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
+double LightSampler::tree_probability(std::size_t light, const SurfacePoint& at) const {
+    const auto rough_lx = rough_at(at);
+    const LightTree::Cut cut = tree_.cut(at, rough_lx);
     const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
                  all_lx = outside_lx + cut.total_lx();
     if (light == outside_) return all_lx > 0 ? outside_lx / all_lx : 0;
     if (!(cut.total_lx() > 0)) return 0;
-    return cut.total_lx() / all_lx *
-           tree_.probability(cut, static_cast<std::uint32_t>(light), from, normal, rough_lx);
+    return cut.total_lx() / all_lx * tree_.probability(cut, static_cast<std::uint32_t>(light), at, rough_lx);
 }
 
 template <typename Condition>
@@ -189,50 +189,49 @@ LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condit
 }
 
 double LightSampler::extended_pdf_per_sr(std::size_t light, const rays::Hit& hit,
-                                         const ReceivingPoint& at) const {
-    const double pdf_per_sr = pdf_of_its_light_per_sr(light, hit, at.position);
+                                         const SurfacePoint& at) const {
+    const double pdf_per_sr = pdf_of_its_light_per_sr(light, hit, at);
     if (!(pdf_per_sr > 0) || !chooses_extended(at)) return pdf_per_sr;
     const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
+    const LightTree::Cut cut = extended_.cut(at, rough_lx);
     if (!(cut.total_lx() > 0)) return 0;
     const auto number = static_cast<std::uint32_t>(light);
-    return kFew * extended_.probability(cut, number, at.position, *at.normal, rough_lx) * pdf_per_sr;
+    return kFew * extended_.probability(cut, number, at, rough_lx) * pdf_per_sr;
 }
 
-std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
+std::optional<IncidentLight> LightSampler::sample_one_light(const SurfacePoint& at,
                                                             math::SampleStream& stream) const {
-    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, {from, normal}, stream.next_two());
+    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    const Choices choices(*this, from, normal);
+    const Choices choices(*this, at);
     if (choices.is_empty()) return std::nullopt;
     return choices.sample(choices.choose(u), point, 1);
 }
 
 double LightSampler::pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit,
-                                             const Vec3& from) const {
+                                             const SurfacePoint& at) const {
     return std::visit(
         [&]<typename Emitter>(const Emitter& emitter) -> double {
             if constexpr (lights::SurfaceEmitterKind<Emitter>) {
-                return emitter.pdf_per_sr(hit.triangle, hit.position, hit.normal, from);
+                return emitter.pdf_per_sr(hit.triangle, hit.position, hit.normal, at.position);
             }
             return 0;
         },
         emitters_[light]);
 }
 
-double LightSampler::pdf_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from,
-                                const Vec3& normal) const {
+double LightSampler::pdf_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const {
     if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
-    return times_choice(pdf_of_its_light_per_sr(light, hit, from), light, from, normal);
+    return times_choice(pdf_of_its_light_per_sr(light, hit, at), light, at);
 }
 
-double LightSampler::times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const {
+double LightSampler::times_choice(double pdf, std::size_t light, const SurfacePoint& at) const {
     if (count() == 1) return pdf;
-    if (goes_by_tree()) return pdf * tree_probability(light, from, normal);
+    if (goes_by_tree()) return pdf * tree_probability(light, at);
     double total = 0, own = 0;
     for (std::size_t i = 0; i < count(); ++i) {
-        const double rough_lx = rough_illuminance_lx(i, from, normal);
+        const double rough_lx = rough_illuminance_lx(i, at);
         total += rough_lx;
         if (i == light) own = rough_lx;
     }
@@ -249,7 +248,7 @@ Rgb LightSampler::outside_luminance(const Vec3& direction) const {
         emitters_[outside_]);
 }
 
-double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const {
+double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const SurfacePoint& at) const {
     if (outside_ == kNoLight) return 0;
     return std::visit(
         [&]<typename Emitter>(const Emitter& emitter) -> double {
@@ -259,10 +258,10 @@ double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const Re
         emitters_[outside_]);
 }
 
-double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const {
+double LightSampler::outside_pdf_per_sr(const Vec3& direction, const SurfacePoint& at) const {
     if (outside_ == kNoLight) return 0;
     if (is_made_elsewhere(outside_)) return std::numeric_limits<double>::infinity();
-    return times_choice(pdf_of_outside_light_per_sr(direction, {from, normal}), outside_, from, normal);
+    return times_choice(pdf_of_outside_light_per_sr(direction, at), outside_, at);
 }
 
 Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving, LightParts* parts) const {

@@ -18,7 +18,6 @@
 namespace stilb::transport {
 
 using lights::IncidentLight;
-using lights::ReceivingPoint;
 
 /// A particle that has just left a light source.
 struct EmittedParticle {
@@ -54,37 +53,32 @@ class LightSampler {
 
     /// Samples the light of one source; point sources ignore `u`. Nothing where the sample's front faces
     /// away.
-    std::optional<IncidentLight> sample_incident(std::size_t light, const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(std::size_t light, const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    std::optional<IncidentLight> sample_incident(std::size_t light, const Vec3& from,
-                                                 const std::array<double, 2>& u) const {
-        return sample_incident(light, ReceivingPoint{from, std::nullopt}, u);
-    }
     /// Its approximate unshadowed illuminance of a surface, of weak lights more (weak_lights.h); 0 only where
     /// that is exactly 0, or where the light is made elsewhere.
-    double rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(std::size_t light, const SurfacePoint& at) const;
     /// The factor in that by which a light is favoured in choices at points.
     double choice_favour(std::size_t light) const { return choice_favours_[light]; }
-    /// Samples one source, chosen by its unshadowed contribution at `from` (approximately, if there are many
+    /// Samples one source, chosen by its unshadowed contribution (approximately, if there are many
     /// lights); divided by the choice's probability. Allocates no memory.
-    std::optional<IncidentLight> sample_one_light(const Vec3& from, const Vec3& normal,
-                                                  math::SampleStream& stream) const;
+    std::optional<IncidentLight> sample_one_light(const SurfacePoint& at, math::SampleStream& stream) const;
     /// Calls `visit(light)` for so many samples, whose sources are chosen in the same way and evenly: each
     /// source as often as is its expected number, but for one; divided by their expected numbers.
     template <typename Visit>
-    void sample_some_lights(const Vec3& from, const Vec3& normal, std::uint32_t samples,
-                            math::SampleStream& stream, const Visit& visit) const;
+    void sample_some_lights(const SurfacePoint& at, std::uint32_t samples, math::SampleStream& stream,
+                            const Visit& visit) const;
 
     /// Calls `visit(light)` for samples of all lights but points: for one of each or, where there are many
     /// and the point has a normal, for some that are chosen as in sample_one_light(), divided by their
     /// expected numbers.
     template <typename Visit>
-    void sample_extended(const ReceivingPoint& at, math::SampleStream& stream, const Visit& visit) const;
+    void sample_extended(const SurfacePoint& at, math::SampleStream& stream, const Visit& visit) const;
     /// Whether that chooses some, not all of them.
     bool chooses_extended() const { return !extended_.is_empty(); }
     /// The approximate density of the direction to `hit` over all samples of sample_extended(); likewise for
     /// a ray that leaves the scene.
-    double extended_pdf_per_sr(std::size_t light, const rays::Hit& hit, const ReceivingPoint& at) const;
+    double extended_pdf_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const;
 
     /// Calls `visit(light, luminance)` for each light whose emitter `hit` is on, with the luminance that
     /// leaves in a unit direction: for several where emitters lie in one place, whose light adds up.
@@ -93,9 +87,9 @@ class LightSampler {
 
     /// The approximate density of the direction to `hit`, on an emitter of `light`, in sample_one_light();
     /// infinite where the light is made elsewhere.
-    double pdf_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from, const Vec3& normal) const;
+    double pdf_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const;
     /// The same for sample_incident() with the light.
-    double pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from) const;
+    double pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const;
 
     /// Luminance that leaves `hit`, on an emitter, in a unit direction; zero elsewhere. `parts`: may be null.
     Rgb emitted_luminance(const rays::Hit& hit, const Vec3& leaving, LightParts* parts = nullptr) const;
@@ -104,8 +98,8 @@ class LightSampler {
     /// Luminance from outside of the scene along a ray that leaves it in a unit direction.
     Rgb outside_luminance(const Vec3& direction) const;
     /// As pdf_per_sr() and pdf_of_its_light_per_sr(), for such a ray.
-    double outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const;
-    double pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
+    double outside_pdf_per_sr(const Vec3& direction, const SurfacePoint& at) const;
+    double pdf_of_outside_light_per_sr(const Vec3& direction, const SurfacePoint& at) const;
     bool has_light_from_outside() const { return outside_ != kNoLight; }
     /// Its number. Precondition: there is one.
     std::uint32_t light_from_outside() const { return outside_; }
@@ -128,19 +122,18 @@ class LightSampler {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
     /// The probability that sample_one_light() chooses a light there, times `pdf`.
-    double times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const;
+    double times_choice(double pdf, std::size_t light, const SurfacePoint& at) const;
     /// More than kFew lights are chosen by the tree, and the light from infinity separately.
     bool goes_by_tree() const { return count() > kFew; }
     /// The leaves of a tree of all lights at finite distance that meet the condition.
     template <typename Condition>
     LightTree planted_tree(const Scene& scene, const Condition& condition) const;
-    bool chooses_extended(const ReceivingPoint& at) const { return chooses_extended() && at.normal; }
-    auto rough_at(const ReceivingPoint& at) const {
-        return
-            [this, &at](std::uint32_t light) { return rough_illuminance_lx(light, at.position, *at.normal); };
+    bool chooses_extended(const SurfacePoint& at) const { return chooses_extended() && !at.is_in_open(); }
+    auto rough_at(const SurfacePoint& at) const {
+        return [this, &at](std::uint32_t light) { return rough_illuminance_lx(light, at); };
     }
     class Choices;
-    double tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const;
+    double tree_probability(std::size_t light, const SurfacePoint& at) const;
 
     std::vector<lights::Emitter> emitters_;
     std::vector<LightLocation> locations_;
@@ -160,7 +153,7 @@ class LightSampler {
 /// The lights at a point of a surface, by their unshadowed contributions. Keeps references to its arguments.
 class LightSampler::Choices {
   public:
-    Choices(const LightSampler& lights, const Vec3& from, const Vec3& normal);
+    Choices(const LightSampler& lights, const SurfacePoint& at);
     /// Whether no light reaches the point.
     bool is_empty() const { return !(all_lx_ > 0); }
     /// Precondition: not empty.
@@ -170,12 +163,8 @@ class LightSampler::Choices {
                                         std::uint32_t choices) const;
 
   private:
-    auto rough() const {
-        return [this](std::uint32_t light) { return lights_.rough_illuminance_lx(light, from_, normal_); };
-    }
-
     const LightSampler& lights_;
-    const Vec3 &from_, &normal_;
+    const SurfacePoint& at_;
     std::array<double, kFew> sums_lx_;  ///< running, of few lights; unset where they go by the tree
     LightTree::Cut cut_;                ///< of many lights
     double outside_lx_ = 0, all_lx_ = 0;
@@ -194,9 +183,9 @@ void LightSampler::for_each_emission(const rays::Hit& hit, const Vec3& leaving, 
 }
 
 template <typename Visit>
-void LightSampler::sample_some_lights(const Vec3& from, const Vec3& normal, std::uint32_t samples,
+void LightSampler::sample_some_lights(const SurfacePoint& at, std::uint32_t samples,
                                       math::SampleStream& stream, const Visit& visit) const {
-    const Choices choices(*this, from, normal);
+    const Choices choices(*this, at);
     if (choices.is_empty()) return;
     const auto [first, across] = stream.next_two();
     for (std::uint32_t i = 0; i < samples; ++i) {
@@ -209,7 +198,7 @@ void LightSampler::sample_some_lights(const Vec3& from, const Vec3& normal, std:
 }
 
 template <typename Visit>
-void LightSampler::sample_extended(const ReceivingPoint& at, math::SampleStream& stream,
+void LightSampler::sample_extended(const SurfacePoint& at, math::SampleStream& stream,
                                    const Visit& visit) const {
     const auto sample = [&](std::size_t light) {
         if (const auto incident = sample_incident(light, at, stream.next_two())) visit(*incident);
@@ -222,12 +211,12 @@ void LightSampler::sample_extended(const ReceivingPoint& at, math::SampleStream&
     }
     if (outside_ != kNoLight) sample(outside_);
     const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
+    const LightTree::Cut cut = extended_.cut(at, rough_lx);
     if (!(cut.total_lx() > 0)) return;
     const double first = stream.next();
     for (std::size_t i = 0; i < kFew; ++i) {
         const double u = (static_cast<double>(i) + first) / kFew;
-        const auto choice = extended_.choose(cut, at.position, *at.normal, u, rough_lx);
+        const auto choice = extended_.choose(cut, at, u, rough_lx);
         auto incident = sample_incident(choice.index, at, stream.next_two());
         if (!incident) continue;
         const double expected = kFew * choice.probability;

@@ -122,8 +122,8 @@ void PathWave::sample_lights(const PathPacket& paths, const LaneMask& lanes, Lig
         set_rgb(light.normal_illuminance_lx, i, {});
         if (lanes[i] == 0) continue;
         math::SampleStream stream = paths.streams.stream(i, sobol_dimensions_);
-        const auto incident = tracer_.lights_.sample_one_light(paths.surface.position.at(i) + center,
-                                                               paths.surface.normal.at(i), stream);
+        const SurfacePoint at{paths.surface.position.at(i) + center, paths.surface.normal.at(i)};
+        const auto incident = tracer_.lights_.sample_one_light(at, stream);
         if (!incident) continue;
         light.source.set(i, incident->source_point - center);
         light.direction.set(i, incident->direction);
@@ -219,8 +219,9 @@ void PathWave::add(const PathPacket& paths, std::size_t lane, const Rgb& luminan
 }
 
 PreviousVertex PathWave::previous_vertex(const PathPacket& paths, std::size_t lane) const {
-    return {paths.previous_pdf_per_sr[lane], paths.previous_position.at(lane) + tracer_.caster_.center(),
-            paths.previous_normal.at(lane), paths.previous_took_lanes[lane] != 0};
+    return {paths.previous_pdf_per_sr[lane],
+            {paths.previous_position.at(lane) + tracer_.caster_.center(), paths.previous_normal.at(lane)},
+            paths.previous_took_lanes[lane] != 0};
 }
 
 void PathWave::set_state(PathPacket& paths, std::size_t lane, const Path& path) const {
@@ -229,8 +230,8 @@ void PathWave::set_state(PathPacket& paths, std::size_t lane, const Path& path) 
     set_rgb(paths.throughput, lane, path.throughput);
     const PreviousVertex& previous = path.previous_vertex;
     paths.previous_pdf_per_sr[lane] = static_cast<float>(previous.pdf_per_sr);
-    paths.previous_position.set(lane, previous.position - tracer_.caster_.center());
-    paths.previous_normal.set(lane, previous.normal);
+    paths.previous_position.set(lane, previous.point.position - tracer_.caster_.center());
+    paths.previous_normal.set(lane, previous.point.normal);
     paths.previous_took_lanes[lane] = previous.took_lanes ? 1 : 0;
 }
 

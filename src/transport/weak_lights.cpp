@@ -48,7 +48,7 @@ double largest_excess(std::size_t light, double most_lm, const LightsAtPoints& l
         if (!hit) continue;
         double all_lx = 0, weak_lx = 0;
         for (std::size_t other = 0; other < lights.count; ++other) {
-            const double rough_lx = lights.rough_lx(other, hit->position, hit->normal);
+            const double rough_lx = lights.rough_lx(other, *hit);
             all_lx += rough_lx;
             const double flux_lm = lights.flux_lm[other];
             if (flux_lm > 0 && flux_lm <= most_lm) weak_lx += rough_lx;

@@ -27,7 +27,7 @@ struct LightsAtPoints {
     /// A particle of a light.
     std::function<lights::Emission(std::size_t light, math::SampleStream&)> emit;
     /// Its estimated illuminance of a surface.
-    std::function<double(std::size_t light, const Vec3& position, const Vec3& normal)> rough_lx;
+    std::function<double(std::size_t light, const SurfacePoint& at)> rough_lx;
     std::size_t count = 0;  ///< of all lights
     bool has_outside = false;
 };

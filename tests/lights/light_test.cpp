@@ -14,7 +14,7 @@ namespace {
 struct NotChosenEmitter {
     NotChosenEmitter(const auto&, const Surroundings&, const Lift&) {}
     Emission emit(math::SampleStream&) const { return {}; }
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint&, const std::array<double, 2>&) const {
+    std::optional<IncidentLight> sample_incident(const SurfacePoint&, const std::array<double, 2>&) const {
         return std::nullopt;
     }
 };

@@ -60,18 +60,18 @@ TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
     for (const Vec3& from : {Vec3{3, 2, 1}, Vec3{-30, 2, 1}}) {  // among them, and far away
         const Vec3 normal = normalized(Vec3{0.5, 0.2, 1});
         const auto rough = [&](std::uint32_t number) { return rough_lx(lights[number], from, normal); };
-        const LightTree::Cut cut = tree.cut(from, normal, rough);
+        const LightTree::Cut cut = tree.cut({from, normal}, rough);
         std::vector<double> probability, observed(kLights), remainders;
         double sum = 0;
         for (std::uint32_t light = 0; light < kLights; ++light) {
-            probability.push_back(tree.probability(cut, light, from, normal, rough));
+            probability.push_back(tree.probability(cut, light, {from, normal}, rough));
             sum += probability.back();
             EXPECT_TRUE(probability.back() > 0 || rough(light) == 0) << light;
         }
         EXPECT_NEAR(sum, 1, 1e-12);
         for (std::uint64_t i = 0; i < kSamples; ++i) {
             const double u = math::SampleStream(math::RandomKey{2}.derived(i), 0).next();
-            const math::DiscreteChoice choice = tree.choose(cut, from, normal, u, rough);
+            const math::DiscreteChoice choice = tree.choose(cut, {from, normal}, u, rough);
             ASSERT_NEAR(choice.probability, probability[choice.index], 1e-9);
             ++observed[choice.index];
             remainders.push_back(choice.remainder);
@@ -96,12 +96,12 @@ TEST(LightTree, GivesNothingBehindTheSurface) {
     const LightTree tree(lights);
     const Vec3 from{0, 0, 4}, up{0, 0, 1};
     const auto total_lx = [&](const Vec3& normal) {
-        return tree.cut(from, normal, [&](std::uint32_t i) { return rough_lx(lights[i], from, normal); })
+        return tree.cut({from, normal}, [&](std::uint32_t i) { return rough_lx(lights[i], from, normal); })
             .total_lx();
     };
     EXPECT_EQ(total_lx(up), 0);
     EXPECT_GT(total_lx(-up), 0);
-    EXPECT_EQ(LightTree().cut(from, up, [](std::uint32_t) { return 1.0; }).total_lx(), 0);
+    EXPECT_EQ(LightTree().cut({from, up}, [](std::uint32_t) { return 1.0; }).total_lx(), 0);
 }
 
 /// One light of many, divided by its probability, against all of them.
@@ -124,7 +124,7 @@ TEST(ManyLights, OneThatIsChosenIsAllOfThem) {
                 constexpr std::uint64_t kPoints = 1024;
                 for (std::uint64_t i = 0; i < kPoints; ++i) {
                     math::SampleStream stream(math::RandomKey{replicate}, i);
-                    const auto light = lights.sample_one_light(from, normal, stream);
+                    const auto light = lights.sample_one_light({from, normal}, stream);
                     sum_of_one += lit(light) / kPoints;
                 }
                 constexpr std::uint64_t kFew = 64;
@@ -154,17 +154,17 @@ TEST(ManyLights, TheDensityOfAnEmitterIsThatOfItsSamples) {
     int emitters = 0, sky = 0;
     for (std::uint64_t i = 0; i < 4096; ++i) {
         math::SampleStream stream(math::RandomKey{3}, i);
-        const auto light = lights.sample_one_light(from, normal, stream);
+        const auto light = lights.sample_one_light({from, normal}, stream);
         if (!light || std::isinf(light->pdf_per_sr)) continue;
         const auto hit = caster.closest(from, light->direction);
         if (!hit) {
             ++sky;
-            EXPECT_NEAR(lights.outside_pdf_per_sr(light->direction, from, normal), light->pdf_per_sr,
+            EXPECT_NEAR(lights.outside_pdf_per_sr(light->direction, {from, normal}), light->pdf_per_sr,
                         1e-9 * light->pdf_per_sr);
         } else if (length(hit->lifted - light->source_point) < 1e-3) {
             ++emitters;
             lights.for_each_emission(*hit, -light->direction, [&](std::size_t own, const Rgb&) {
-                EXPECT_NEAR(lights.pdf_per_sr(own, *hit, from, normal), light->pdf_per_sr,
+                EXPECT_NEAR(lights.pdf_per_sr(own, *hit, {from, normal}), light->pdf_per_sr,
                             1e-6 * light->pdf_per_sr);
             });
         }

@@ -174,8 +174,7 @@ TEST(LaneLights, AgreeWithLightSampler) {
             const double cosine = std::max(0.0, dot(light.direction.at(i), points[i].normal));
             of_lanes[i].add(cosine * light.normal_illuminance_lx[0][i]);
             math::SampleStream stream({100 + i}, n, 0);
-            const auto incident =
-                traced.lights.sample_one_light(points[i].position, points[i].normal, stream);
+            const auto incident = traced.lights.sample_one_light(points[i], stream);
             of_points[i].add(incident ? std::max(0.0, dot(incident->direction, points[i].normal)) *
                                             incident->normal_illuminance_lx[0]
                                       : 0);

@@ -8,11 +8,6 @@
 #include "transport/direct/tile_choice.h"
 
 namespace stilb::transport {
-namespace {
-
-lights::LitPoint lit_point(const Receiver& receiver) { return {receiver.position(), receiver.normal()}; }
-
-}  // namespace
 
 /// Light that shadow rays of a tile bring in.
 struct DirectLight::ShadowRays {
@@ -118,23 +113,22 @@ std::size_t DirectLight::light_of(std::size_t lamp) const {
 }
 
 /// Of all of the lamp, where that is known.
-std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const lights::LitPoint& at) const {
+std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const SurfacePoint& at) const {
     if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at);
     return openings_[lamp - lamps_.size()].illuminance_lx(at);
 }
 
 /// Of all of the lamp, or of a surface without closed form: 0 only where that gives no light.
-double DirectLight::rough_lx(std::size_t lamp, const lights::LitPoint& at) const {
+double DirectLight::rough_lx(std::size_t lamp, const SurfacePoint& at) const {
     if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at).luminance();
-    return lights_.rough_illuminance_lx(light_of(lamp), at.position, at.normal);
+    return lights_.rough_illuminance_lx(light_of(lamp), at);
 }
 
-std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const lights::LitPoint& at,
+std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const SurfacePoint& at,
                                                    math::SampleStream& stream) const {
     if (lamp < lamps_.size()) return lamps_[lamp].sample(at, stream);
     if (lamp < lamp_count()) return openings_[lamp - lamps_.size()].sample(at, stream);
-    const auto incident =
-        lights_.sample_incident(surfaces_[lamp - lamp_count()], {at.position, at.normal}, stream.next_two());
+    const auto incident = lights_.sample_incident(surfaces_[lamp - lamp_count()], at, stream.next_two());
     return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
 }
 
@@ -161,7 +155,7 @@ void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remai
         std::size_t count = 0;
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (!has_closed_form(tile[i])) continue;
-            whole_lx[i] = lamps_[l].illuminance_lx(lit_point(tile[i]));
+            whole_lx[i] = lamps_[l].illuminance_lx(tile[i].point());
             if (whole_lx[i].max() > 0) lit[count++] = tile[i].lifted();
         }
         if (count == 0) continue;
@@ -177,7 +171,7 @@ void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remai
     }
     for (std::size_t o = 0; o < openings_.size(); ++o) {
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            if (has_closed_form(tile[i]) && openings_[o].may_light(lit_point(tile[i])))
+            if (has_closed_form(tile[i]) && openings_[o].may_light(tile[i].point()))
                 remainder.lamps[i] |= 1u << (lamps_.size() + o);
         }
     }
@@ -189,7 +183,7 @@ std::optional<Rgb> DirectLight::settled_lx(std::size_t lamp, const Receiver& rec
     const LampHull& hull = hull_of(lamp);
     if (hull.is_hidden_from(receiver.lifted(), scene_, caster_)) return Rgb{};
     if (!hull.is_seen_from(std::span(&receiver.lifted(), 1), *shafts_)) return std::nullopt;
-    return whole_lx(lamp, lit_point(receiver));
+    return whole_lx(lamp, receiver.point());
 }
 
 void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder,
@@ -215,7 +209,7 @@ void DirectLight::settle_many_lamps(std::span<const Receiver> tile, Remainder& r
         std::size_t count = 0;
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (!has_closed_form(tile[i])) continue;
-            rough[i] = rough_lx(l, lit_point(tile[i]));
+            rough[i] = rough_lx(l, tile[i].point());
             if (rough[i] > 0) lit[count++] = tile[i].lifted();
         }
         const bool may_settle = count > 0 && l < lamp_count();
@@ -224,7 +218,7 @@ void DirectLight::settle_many_lamps(std::span<const Receiver> tile, Remainder& r
             if (!(rough[i] > 0)) continue;
             std::optional<Rgb> received_lx;
             if (all_see_it)
-                received_lx = whole_lx(l, lit_point(tile[i]));
+                received_lx = whole_lx(l, tile[i].point());
             else if (may_settle)
                 received_lx = settled_lx(l, tile[i]);
             if (received_lx) {
@@ -254,7 +248,7 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
     ShadowRays shadow_rays;
     for (std::size_t i = 0; i < tile.size(); ++i) {
         if ((remainder.lamps[i] >> lamp & 1u) == 0) continue;
-        if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
+        if (const auto sample = sample_lamp(lamp, tile[i].point(), streams[i]))
             shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
                             sample->illuminance_lx * *tile[i].constant_response(), light_of(lamp));
     }
@@ -270,7 +264,7 @@ void DirectLight::add_chosen_lamps(std::span<const Receiver> tile, const Remaind
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (choice >= remainder.open[i].choices()) continue;
             const auto [lamp, factor] = remainder.open[i].choose(choice, first[i]);
-            if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
+            if (const auto sample = sample_lamp(lamp, tile[i].point(), streams[i]))
                 shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
                                 factor * sample->illuminance_lx * *tile[i].constant_response(),
                                 light_of(lamp));
@@ -312,7 +306,7 @@ void DirectLight::add_point(std::span<const Receiver> tile, std::size_t point, d
 void DirectLight::add_ray(std::span<const Receiver> tile, std::size_t lane, std::size_t light,
                           const std::array<double, 2>& u, double factor, ShadowRays& shadow_rays) const {
     const Receiver& receiver = tile[lane];
-    const auto incident = lights_.sample_incident(light, receiving_point(receiver), u);
+    const auto incident = lights_.sample_incident(light, receiver.point(), u);
     if (!incident) return;
     const double sensitivity = receiver.sensitivity(incident->direction);
     if (!(sensitivity > 0) || !(incident->normal_illuminance_lx.max() > 0)) return;

@@ -120,11 +120,11 @@ class DirectLight {
     std::size_t light_of(std::size_t lamp) const;
     std::size_t lamp_count() const { return lamps_.size() + openings_.size(); }
     const LampHull& hull_of(std::size_t lamp) const;
-    std::optional<Rgb> whole_lx(std::size_t lamp, const lights::LitPoint& at) const;
-    double rough_lx(std::size_t lamp, const lights::LitPoint& at) const;
+    std::optional<Rgb> whole_lx(std::size_t lamp, const SurfacePoint& at) const;
+    double rough_lx(std::size_t lamp, const SurfacePoint& at) const;
     /// The illuminance of one receiver by a lamp, where that is certain.
     std::optional<Rgb> settled_lx(std::size_t lamp, const Receiver& receiver) const;
-    std::optional<LampSample> sample_lamp(std::size_t lamp, const lights::LitPoint& at,
+    std::optional<LampSample> sample_lamp(std::size_t lamp, const SurfacePoint& at,
                                           math::SampleStream& stream) const;
     void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
                       std::span<math::SampleStream> streams, TileLight& light) const;

@@ -20,19 +20,19 @@ class OpeningLamp {
 
     const LampHull& hull() const { return hull_; }
     /// Whether some element's front faces the point, on the side that it faces.
-    bool may_light(const lights::LitPoint& at) const;
+    bool may_light(const SurfacePoint& at) const;
     /// The illuminance without shadows, by quadrature: two rules, of which the second has twice as many nodes
     /// in each direction, agree to kAgreement. Nothing where no two of them do: close to the opening, or
     /// where it reaches below the horizon.
-    std::optional<Rgb> illuminance_lx(const lights::LitPoint& at) const;
+    std::optional<Rgb> illuminance_lx(const SurfacePoint& at) const;
     /// The light from a point of the front that is drawn about by solid angle.
-    std::optional<LampSample> sample(const lights::LitPoint& at, math::SampleStream& stream) const;
+    std::optional<LampSample> sample(const SurfacePoint& at, math::SampleStream& stream) const;
 
     static constexpr double kAgreement = 5e-5;
 
   private:
     OpeningLamp(const Scene& scene, const LuminousOpening& opening, const Lift& lift);
-    Rgb sum_lx(const lights::LitPoint& at, const math::GaussLegendre& rule) const;
+    Rgb sum_lx(const SurfacePoint& at, const math::GaussLegendre& rule) const;
 
     lights::OpeningEmitter emitter_;
     std::vector<lights::EmitterElement> elements_;

@@ -92,8 +92,7 @@ void TileChoice::estimate(const LightTree::Node& node, Floats& lanes_lx) const {
     if (node.is_point) {
         lanes_lx.fill(0);
         for (std::size_t i = 0; i < tile_.size(); ++i) {
-            lanes_lx[i] = static_cast<float>(
-                lights_.rough_illuminance_lx(node.first, tile_[i].position(), tile_[i].normal()));
+            lanes_lx[i] = static_cast<float>(lights_.rough_illuminance_lx(node.first, tile_[i].point()));
         }
         return;
     }

@@ -87,7 +87,7 @@ class Eye {
     };
     /// Nothing where the eye does not see the point.
     std::optional<Point> see_point(std::size_t light) const {
-        const auto incident = lights_.sample_incident(light, position_, {});
+        const auto incident = lights_.sample_incident(light, {position_}, {});
         if (!incident) return std::nullopt;
         const double cosine = dot(incident->direction, sight_);
         if (!(cosine > 0)) return std::nullopt;

@@ -24,9 +24,8 @@ struct Arrival {
 };
 
 std::optional<Arrival> arrival(const transport::LightSampler& sampler, std::size_t light,
-                               const LitPoint& point, const std::array<double, 2>& u) {
-    const auto incident =
-        sampler.sample_incident(light, transport::ReceivingPoint{point.position, point.normal}, u);
+                               const SurfacePoint& point, const std::array<double, 2>& u) {
+    const auto incident = sampler.sample_incident(light, point, u);
     if (!incident) return std::nullopt;
     const double cosine = dot(incident->direction, point.normal);
     if (!(cosine > 0)) return std::nullopt;
@@ -49,7 +48,7 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster)
         pattern_.push_back(math::SampleStream(math::RandomKey{1}, k).next_two());
 }
 
-double DirectLight::add(const LitPoint& point, double share, std::span<float> sums) const {
+double DirectLight::add(const SurfacePoint& point, double share, std::span<float> sums) const {
     double squared_error = 0;
     for (std::size_t light = 0; light < count(); ++light) {
         const Estimate estimate =
@@ -60,13 +59,13 @@ double DirectLight::add(const LitPoint& point, double share, std::span<float> su
     return squared_error;
 }
 
-DirectLight::Estimate DirectLight::by_point_light(std::size_t light, const LitPoint& point) const {
+DirectLight::Estimate DirectLight::by_point_light(std::size_t light, const SurfacePoint& point) const {
     const auto arriving = arrival(sampler_, light, point, {});
     if (!arriving || !(arriving->illuminance_lx.max() > 0)) return {};
     return {(arriving->illuminance_lx * caster_.transmittance(arriving->segment)).luminance()};
 }
 
-DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const LitPoint& point) const {
+DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const SurfacePoint& point) const {
     const auto [few, many] = efforts_[light];
     const Estimate first = by_points(light, point, few);
     const double small = kSmallError * first.lx;
@@ -74,7 +73,7 @@ DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const Li
     return by_points(light, point, many);
 }
 
-DirectLight::Estimate DirectLight::by_points(std::size_t light, const LitPoint& point,
+DirectLight::Estimate DirectLight::by_points(std::size_t light, const SurfacePoint& point,
                                              std::size_t points) const {
     std::vector<rays::Segment> segments;
     std::vector<Rgb> arriving_lx;

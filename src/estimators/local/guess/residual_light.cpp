@@ -194,7 +194,7 @@ Rgb ResidualLight::missing_cd_m2(std::uint32_t side, const math::Barycentric& at
     return missing_cd_m2;
 }
 
-auto ResidualLight::look_around(const SidePoint& point, math::SampleStream& stream) const -> Around {
+auto ResidualLight::look_around(const SurfacePoint& point, math::SampleStream& stream) const -> Around {
     const auto [u1, u2] = stream.next_two();
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -258,17 +258,16 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const Start start = start_at(side, at, kResidualPackets, BoundedDirect::Part::bounded, stream);
     const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
     const materials::SplitMaterial& parts = guess_.material(side);
-    const auto& [position, lifted, normal] = start.point;
+    const Vec3& normal = start.point.normal;
     const Rgb missing = start.missing_lx * per_density, arriving = start.arrival.illuminance_lx * per_density;
     const double favour = favours_[choice.index];
     const Rgb diffuse = missing * parts.diffuse_reflectance, gloss = arriving * parts.gloss_reflectance();
     // The direction of the light that comes in does not matter for the diffuse part.
     if (diffuse != Rgb{})
-        nodes.push_back(
-            {position, lifted, normal, normal, normal, &parts.diffuse, missing, 1, false, favour});
+        nodes.push_back({start.point, normal, normal, &parts.diffuse, missing, 1, false, favour});
     if (gloss != Rgb{})
-        nodes.push_back({position, lifted, normal, normal, start.arrival.direction, &*parts.gloss, arriving,
-                         1, false, favour, split_of_gloss(parts)});
+        nodes.push_back({start.point, normal, start.arrival.direction, &*parts.gloss, arriving, 1, false,
+                         favour, split_of_gloss(parts)});
     const std::size_t own = nodes.size();
     branch_out(start, parts, missing, arriving, stream, nodes);
     for (transport::LightVertex& node : std::span(nodes).subspan(own)) node.favour = favour;
@@ -318,8 +317,7 @@ void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, Rgb flux_
         const materials::SplitMaterial& parts = guess_.material(hit->material);
         if (!parts.reflects()) return;
         const Material& material = scene_.material(hit->material);
-        add({hit->position, hit->lifted, hit->normal, hit->normal, -direction, &material, flux_lm, 1}, parts,
-            nodes);
+        add({*hit, hit->normal, -direction, &material, flux_lm, 1}, parts, nodes);
         const double survival =
             transport::survival_probability(magnitude(flux_lm), reflectance_bound(material));
         if (stream.next() >= survival) return;

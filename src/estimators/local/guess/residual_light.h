@@ -47,7 +47,7 @@ class ResidualLight {
   private:
     /// Where and how paths start.
     struct Start {
-        SidePoint point;
+        SurfacePoint point;
         Rgb guessed_cd_m2;
         Rgb missing_lx;   ///< one sample of r, as the illuminance that the diffuse part would reflect to it
         Arrival arrival;  ///< all the light that the gloss reflects, as if it came from one direction
@@ -66,7 +66,7 @@ class ResidualLight {
         math::Barycentric at;
         Rgb missing_cd_m2;
     };
-    Around look_around(const SidePoint& point, math::SampleStream& stream) const;
+    Around look_around(const SurfacePoint& point, math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;

@@ -156,7 +156,7 @@ class Chooser {
     std::string shoot_from_opening(const LuminousOpening& light) {
         const lights::EmitterSurface surface(scene_.object(light.object).shape, caster_.lift());
         const std::size_t count = points_of_opening(scene_.object(light.object));
-        std::vector<lights::EmitterSurface::Point> points;
+        std::vector<lights::EmitterPoint> points;
         for (std::uint32_t i = 0; i < count; ++i) {
             const double u = (i + 0.5) / static_cast<double>(count);
             points.push_back(surface.sample_by_area({u, math::sobol(i, 0) * 0x1p-32}));

@@ -52,7 +52,7 @@ void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, 
             const std::size_t points = lights_.lights[i].samples;
             for (std::size_t k = 0; k < points; ++k) {
                 const auto light = sampler_.sample_incident(
-                    i, position, math::SampleStream(key_here.derived(i), k).next_two());
+                    i, {position}, math::SampleStream(key_here.derived(i), k).next_two());
                 if (!light || !(light->normal_illuminance_lx.max() > 0)) continue;
                 const double cosine = dot(light->direction, frame.w);
                 if (cosine <= 0) continue;

@@ -46,11 +46,11 @@ Uv even_point(std::size_t i);
 std::array<double, 3> even_point_of_triangle(std::size_t i);
 
 /// Points that lie evenly on triangles, by area.
-struct SurfacePoint {
+struct PointOfTriangle {
     std::size_t triangle;
     std::array<double, 3> barycentric;
 };
-std::vector<SurfacePoint> points_on_surface(std::span<const double> areas_m2);
+std::vector<PointOfTriangle> points_on_surface(std::span<const double> areas_m2);
 
 /// The means of red, green, blue and alpha (from 0 to 1) at these texture coordinates, or over the whole
 /// picture where there are none. `is_colour`: red, green and blue are stored by the tone curve of sRGB.
