@@ -154,9 +154,8 @@ std::vector<SurfacePoint> Enclosures::starts_of(const Light& light) const {
     std::vector<SurfacePoint> starts =
         std::visit(StartsOnShape{components_[index_of(*surface)], caster_}, scene_.object(*surface).shape);
     // An opening may reach through the walls around its luminaire.
-    if (std::holds_alternative<LuminousOpening>(light.source)) {
-        const Luminaire& luminaire = *lights::luminaire_of(light);
-        starts.push_back(lifted_point(luminaire.position, starts.front().normal,
+    if (const Luminaire* luminaire = lights::luminaire_of(light)) {
+        starts.push_back(lifted_point(luminaire->position, starts.front().normal,
                                       caster_.lift().largest_size_m(), caster_));
     }
     return starts;

@@ -55,7 +55,7 @@ class OverlapLight {
             const auto surface = lights::emitting_object(light);
             if (!surface) continue;
             is_lamp_[index_of(*surface)] = true;
-            is_opening_[index_of(*surface)] = lights::luminaire_of(light) != nullptr;
+            is_opening_[index_of(*surface)] = lights::opening_of(light).has_value();
         }
     }
 

@@ -17,6 +17,7 @@ struct AreaLight {
     static constexpr LightLocation kLocation = LightLocation::surface;
     using Emitter = AreaEmitter;
     void scale(const Rgb& by) { luminance_cd_m2 *= by; }
+    bool shines_like(const AreaLight&) const { return true; }
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     const Rgb& mean_luminance_cd_m2(const Surroundings&) const { return luminance_cd_m2; }

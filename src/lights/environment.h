@@ -21,6 +21,7 @@ struct EnvironmentLight {
     static constexpr LightLocation kLocation = LightLocation::infinity;
     using Emitter = EnvironmentEmitter;
     void scale(const Rgb& by);
+    bool shines_like(const EnvironmentLight& other) const { return panorama == other.panorama; }
     /// The flux that enters the scene's bounding box.
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;

@@ -141,6 +141,9 @@ concept LightKind = EmitterKind<typename L::Emitter> &&
 } && requires(L& light, const Rgb& factor) {
     /// Multiplies its emission, band by band.
     light.scale(factor);
+} && requires(const L& light) {
+    /// Whether both send their light into the same directions, whatever their flux, colour and place.
+    { light.shines_like(light) } -> std::same_as<bool>;
 } &&(L::kLocation != LightLocation::point || (PointEmitterKind<typename L::Emitter> &&
                                               requires(const L& light) {
                                                   { light.origin() } -> std::same_as<LightOrigin>;

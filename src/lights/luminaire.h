@@ -24,6 +24,11 @@ struct Luminaire {
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { factor *= by; }
     LightOrigin origin() const { return {position, nadir}; }
+    bool shines_like(const Luminaire& other) const {
+        constexpr double same_cosine = 1 - 1e-6;
+        return solid == other.solid && dot(nadir, other.nadir) >= same_cosine &&
+               dot(c0, other.c0) >= same_cosine;
+    }
     /// A direction in the frame of its solid.
     Vec3 in_solid(const Vec3& direction) const {
         return {dot(direction, c0), dot(direction, c90), dot(direction, nadir)};

@@ -29,6 +29,7 @@ struct LuminousOpening {
     /// Over all points and directions of the front.
     Rgb mean_luminance_cd_m2(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { luminaire.scale(by); }
+    bool shines_like(const LuminousOpening& other) const { return luminaire.shines_like(other.luminaire); }
 };
 
 /// Keeps a reference to the solid. No direction with intensity sees nothing of the opening.

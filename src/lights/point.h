@@ -21,6 +21,7 @@ struct PointLight {
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { intensity_cd *= by; }
     LightOrigin origin() const { return {position, std::nullopt}; }
+    bool shines_like(const PointLight&) const { return true; }
 };
 
 class PointEmitter {

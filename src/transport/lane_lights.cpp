@@ -70,9 +70,9 @@ std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift, c
         Light lane{};
         lane.flux_lm = static_cast<float>(lights.choice_favour(all.lights_.size()) *
                                           scene::flux_lm(scene, light).luminance());
-        if (const auto* point = std::get_if<PointLight>(&light.source)) {
-            lane.rectangle.corner = lane_point(point->position - center);
-            lane.emission = lane_rgb(point->intensity_cd);
+        if (const auto intensity_cd = lights::uniform_intensity_cd(light)) {
+            lane.rectangle.corner = lane_point(lights::point_origin(light)->position - center);
+            lane.emission = lane_rgb(*intensity_cd);
             lane.is_point = true;
         } else if (const auto surface = lights::uniform_emission(light)) {
             const auto rectangle = lane_rectangle(scene.object(surface->object).shape, center);

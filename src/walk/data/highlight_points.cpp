@@ -60,33 +60,38 @@ std::vector<EmitterPoint> points_on(const AnyShape& shape) {
     return points;
 }
 
-/// Nothing where the light does not come from infinity.
-template <lights::LightKind Source>
-std::vector<EmitterPoint> points_around(const Scene& scene, const Source& light) {
+/// Of light from infinity.
+template <lights::InfiniteEmitterKind Emitter>
+std::vector<EmitterPoint> points_around(const Bounds& bounds, const Emitter& emitter) {
     std::vector<EmitterPoint> points;
-    if constexpr (Source::kLocation == LightLocation::infinity) {
-        const scene::LightSurroundings surroundings(scene);
-        const typename Source::Emitter emitter(light, surroundings, scene::lift_of(scene));
-        const Bounds bounds = surroundings.bounds();
-        for (std::size_t i = 0; i < kAround; ++i) {
-            const Vec3 direction = lattice_direction(i, kAround);
-            points.push_back({{bounds.middle() + 2 * kFar * bounds.half_extent() * direction},
-                              emitter.luminance_cd_m2(direction).luminance()});
-        }
+    for (std::size_t i = 0; i < kAround; ++i) {
+        const Vec3 direction = lattice_direction(i, kAround);
+        points.push_back({{bounds.middle() + 2 * kFar * bounds.half_extent() * direction},
+                          emitter.luminance_cd_m2(direction).luminance()});
     }
     return points;
+}
+
+template <lights::LightKind Source>
+std::vector<EmitterPoint> points_of(const Scene& scene, const Source& light) {
+    if constexpr (Source::kLocation == LightLocation::point) {
+        return {{{light.origin().position}}};
+    } else if constexpr (Source::kLocation == LightLocation::surface) {
+        return std::visit([](const auto& shape) { return points_on(shape); },
+                          scene.object(light.object).shape);
+    } else {
+        static_assert(Source::kLocation == LightLocation::infinity);
+        const scene::LightSurroundings surroundings(scene);
+        return points_around(surroundings.bounds(),
+                             typename Source::Emitter(light, surroundings, scene::lift_of(scene)));
+    }
 }
 
 }  // namespace
 
 std::vector<EmitterPoint> highlight_points(const Scene& scene, const Light& light) {
-    if (const auto origin = lights::point_origin(light)) return {{{origin->position}}};
-    std::vector<EmitterPoint> points;
-    if (const auto surface = lights::emitting_object(light)) {
-        points = std::visit([](const auto& shape) { return points_on(shape); }, scene.object(*surface).shape);
-    } else {
-        points = std::visit([&](const auto& source) { return points_around(scene, source); }, light.source);
-    }
+    std::vector<EmitterPoint> points =
+        std::visit([&](const auto& source) { return points_of(scene, source); }, light.source);
     double sum = 0;
     for (const EmitterPoint& point : points) sum += point.weight;
     for (EmitterPoint& point : points) point.weight = sum > 0 ? point.weight / sum : 0;

@@ -122,10 +122,10 @@ class Chooser {
         if constexpr (Source::kLocation == LightLocation::point) {
             return shoot_from_point(
                 typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
-        } else if constexpr (std::is_same_v<Source, LuminousOpening>) {
+        } else if constexpr (requires { source.luminaire; }) {
             return shoot_from_opening(source);
         } else if constexpr (Source::kLocation == LightLocation::surface) {
-            static_assert(std::is_same_v<Source, AreaLight>, "a kind of uniform luminance");
+            static_assert(requires { source.luminance_cd_m2; }, "patches emit evenly: add samples of the kind");
             return shoot_from_surface(*uniform_emission(light));
         } else {
             static_assert(Source::kLocation == LightLocation::infinity);
