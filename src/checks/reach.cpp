@@ -11,6 +11,7 @@
 #include "checks/walks.h"
 #include "math/sampling.h"
 #include "sensors/place.h"
+#include "transport/direct/direct_sample.h"
 
 namespace stilb::checks {
 namespace {
@@ -228,10 +229,8 @@ class ReachCheck {
             const SurfacePoint& place =
                 places[static_cast<std::size_t>(stream.next() * static_cast<double>(places.size()))];
             const auto [u1, u2] = stream.next_two();
-            const auto light = shining.sample_incident(place, {u1, u2});
-            if (light && light->normal_illuminance_lx.max() > 0 && dot(light->direction, place.normal) > 0 &&
-                caster_.transmittance({place.lifted, light->source_point}).max() > 0)
-                return true;
+            const auto sample = transport::direct_sample(shining.sample_incident(place, {u1, u2}), place);
+            if (sample && caster_.transmittance(sample->segment).max() > 0) return true;
         }
         return false;
     }

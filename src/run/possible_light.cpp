@@ -5,7 +5,7 @@
 #include <functional>
 
 #include "statistics/interval.h"
-#include "transport/direct/lamp_hull.h"
+#include "transport/direct/direct_sample.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::run {
@@ -122,8 +122,8 @@ double PossibleLight::seen_lx(const SurfacePoint& at) const {
 double PossibleLight::sampled_lx(const SurfacePoint& at, math::SampleStream& stream) const {
     double sum_lx = 0;
     for (std::size_t light = 0; light < lights_.count(); ++light) {
-        const auto incident = lights_.sample_incident(light, at, stream.next_two());
-        const auto sample = incident ? transport::lamp_sample(*incident, at.normal) : std::nullopt;
+        const auto sample =
+            transport::direct_sample(lights_.sample_incident(light, at, stream.next_two()), at);
         if (sample) sum_lx += sample->illuminance_lx.luminance();
     }
     return sum_lx;

@@ -34,10 +34,11 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= emission_favours_[i];
     by_emission_ = math::DiscreteDistribution(weights);
     set_choice_favours(caster);
-    if (goes_by_tree()) tree_ = planted_tree(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); });
-    const auto extended = std::ranges::count(locations_, LightLocation::surface);
-    if (extended > std::ptrdiff_t{kFew})
-        extended_ = planted_tree(scene, [&](std::uint32_t i) { return !is_point(i); });
+    const auto all = leaves(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); });
+    all_ = {all, has_light_from_outside() && !is_made_elsewhere(outside_) ? std::optional(outside_)
+                                                                          : std::nullopt};
+    std::vector<LightTree::Light> extended = leaves(scene, [&](std::uint32_t i) { return !is_point(i); });
+    if (extended.size() > LightChoice::kFew) extended_ = {std::move(extended), std::nullopt};
 }
 
 void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
@@ -124,79 +125,36 @@ double LightSampler::rough_illuminance_lx(std::size_t light, const SurfacePoint&
                       emitters_[light]);
 }
 
-LightSampler::Choices::Choices(const LightSampler& lights, const SurfacePoint& at)
-    : lights_(lights), at_(at) {
-    const auto rough_lx = lights.rough_at(at);
-    if (lights.goes_by_tree()) {
-        cut_ = lights.tree_.cut(at, rough_lx);
-        if (lights.outside_ != kNoLight) outside_lx_ = rough_lx(lights.outside_);
-        all_lx_ = outside_lx_ + cut_.total_lx();
-        return;
-    }
-    for (std::uint32_t light = 0; light < lights.count(); ++light)
-        sums_lx_[light] = all_lx_ += rough_lx(light);
-}
-
-math::DiscreteChoice LightSampler::Choices::choose(double u) const {
-    if (!lights_.goes_by_tree()) return math::choose_by_sums({sums_lx_.data(), lights_.count()}, u);
-    const double outside = outside_lx_ / all_lx_;
-    if (u < outside) return {lights_.outside_, outside, u / outside};
-    const double rest = std::min((u - outside) / (1 - outside), math::kBelowOne);
-    math::DiscreteChoice choice = lights_.tree_.choose(cut_, at_, rest, lights_.rough_at(at_));
-    choice.probability *= 1 - outside;
-    return choice;
-}
-
-std::optional<IncidentLight> LightSampler::Choices::sample(const math::DiscreteChoice& choice,
-                                                           const std::array<double, 2>& u,
-                                                           std::uint32_t choices) const {
-    auto incident = lights_.sample_incident(choice.index, at_, u);
+std::optional<IncidentLight> LightSampler::sample_chosen(std::size_t light, double expected,
+                                                         const SurfacePoint& at,
+                                                         const std::array<double, 2>& u) const {
+    auto incident = sample_incident(light, at, u);
     if (incident) {
-        const double expected = choices * choice.probability;
         incident->normal_illuminance_lx *= 1 / expected;
         incident->pdf_per_sr *= expected;
     }
     return incident;
 }
 
-double LightSampler::tree_probability(std::size_t light, const SurfacePoint& at) const {
-    const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = tree_.cut(at, rough_lx);
-    const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
-                 all_lx = outside_lx + cut.total_lx();
-    if (light == outside_) return all_lx > 0 ? outside_lx / all_lx : 0;
-    if (!(cut.total_lx() > 0)) return 0;
-    return cut.total_lx() / all_lx * tree_.probability(cut, static_cast<std::uint32_t>(light), at, rough_lx);
-}
-
-template <typename Condition>
-LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condition) const {
-    std::vector<LightTree::Light> leaves;
-    for (std::uint32_t i = 0; i < count(); ++i) {
-        if (!condition(i)) continue;
-        // Between that of a ball and of a flat surface along its normal.
-        const double luminous_lm = choice_favours_[i] * flux_lm_[i].luminance();
-        LightTree::Light leaf{i, {}, luminous_lm / (2 * std::numbers::pi), is_point(i)};
-        if (const auto origin = lights::point_origin(scene.lights[i])) {
-            leaf.bounds.include(origin->position);
-            leaf.intensity_cd /= 2;
-        }
-        if (const auto object = lights::emitting_object(scene.lights[i]))
-            leaf.bounds = bounds_of(scene.object(*object).shape);
-        if (!leaf.bounds.is_empty()) leaves.push_back(leaf);
+LightTree::Light LightSampler::leaf(const Scene& scene, std::uint32_t light) const {
+    // Between the intensity of a ball and that of a flat surface along its normal.
+    const double luminous_lm = choice_favours_[light] * flux_lm_[light].luminance();
+    LightTree::Light leaf{light, {}, luminous_lm / (2 * std::numbers::pi), is_point(light)};
+    if (const auto origin = lights::point_origin(scene.lights[light])) {
+        leaf.bounds.include(origin->position);
+        leaf.intensity_cd /= 2;
     }
-    return LightTree(std::move(leaves));
+    if (const auto object = lights::emitting_object(scene.lights[light]))
+        leaf.bounds = bounds_of(scene.object(*object).shape);
+    return leaf;
 }
 
 double LightSampler::extended_pdf_per_sr(std::size_t light, const rays::Hit& hit,
                                          const SurfacePoint& at) const {
     const double pdf_per_sr = pdf_of_its_light_per_sr(light, hit, at);
     if (!(pdf_per_sr > 0) || !chooses_extended(at)) return pdf_per_sr;
-    const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut(at, rough_lx);
-    if (!(cut.total_lx() > 0)) return 0;
-    const auto number = static_cast<std::uint32_t>(light);
-    return kFew * extended_.probability(cut, number, at, rough_lx) * pdf_per_sr;
+    return kExtended * LightChoice::At(extended_, *this, at)
+                           .times_probability(pdf_per_sr, static_cast<std::uint32_t>(light));
 }
 
 std::optional<IncidentLight> LightSampler::sample_one_light(const SurfacePoint& at,
@@ -204,9 +162,10 @@ std::optional<IncidentLight> LightSampler::sample_one_light(const SurfacePoint& 
     if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    const Choices choices(*this, at);
-    if (choices.is_empty()) return std::nullopt;
-    return choices.sample(choices.choose(u), point, 1);
+    const LightChoice::At choice_at(all_, *this, at);
+    if (choice_at.is_empty()) return std::nullopt;
+    const math::DiscreteChoice choice = choice_at.choose(u);
+    return sample_chosen(choice.index, choice.probability, at, point);
 }
 
 double LightSampler::pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit,
@@ -226,16 +185,9 @@ double LightSampler::pdf_per_sr(std::size_t light, const rays::Hit& hit, const S
     return times_choice(pdf_of_its_light_per_sr(light, hit, at), light, at);
 }
 
-double LightSampler::times_choice(double pdf, std::size_t light, const SurfacePoint& at) const {
-    if (count() == 1) return pdf;
-    if (goes_by_tree()) return pdf * tree_probability(light, at);
-    double total = 0, own = 0;
-    for (std::size_t i = 0; i < count(); ++i) {
-        const double rough_lx = rough_illuminance_lx(i, at);
-        total += rough_lx;
-        if (i == light) own = rough_lx;
-    }
-    return total > 0 ? pdf * own / total : 0;
+double LightSampler::times_choice(double pdf_per_sr, std::size_t light, const SurfacePoint& at) const {
+    if (count() == 1) return pdf_per_sr;
+    return LightChoice::At(all_, *this, at).times_probability(pdf_per_sr, static_cast<std::uint32_t>(light));
 }
 
 Rgb LightSampler::outside_luminance(const Vec3& direction) const {

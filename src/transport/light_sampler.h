@@ -12,8 +12,8 @@
 #include "math/sampling.h"
 #include "rays/ray_caster.h"
 #include "scene/scene.h"
+#include "transport/light_choice.h"
 #include "transport/light_parts.h"
-#include "transport/light_tree.h"
 
 namespace stilb::transport {
 
@@ -107,33 +107,40 @@ class LightSampler {
     bool leaves_out_lights() const { return !made_elsewhere_.empty(); }
     /// Whether rays can meet light.
     bool has_visible_lights() const { return has_visible_lights_; }
+    /// The leaves of a tree of the lights at finite distance that meet a condition on their numbers.
+    template <typename Condition>
+    std::vector<LightTree::Light> leaves(const Scene& scene, const Condition& condition) const {
+        std::vector<LightTree::Light> all;
+        for (std::uint32_t light = 0; light < count(); ++light) {
+            if (light != outside_ && condition(light)) all.push_back(leaf(scene, light));
+        }
+        return all;
+    }
 
   private:
     static constexpr std::uint32_t kNoLight = ~0u;
-    static constexpr std::size_t kFew = 32;
+    /// Samples of sample_extended(), where it chooses.
+    static constexpr std::uint32_t kExtended = 32;
 
     void add(const Light& light, const Scene& scene, const rays::RayCaster& caster);
     lights::Emission emit(std::size_t light, math::SampleStream& stream) const {
         return std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[light]);
     }
+    LightTree::Light leaf(const Scene& scene, std::uint32_t light) const;
     void set_choice_favours(const rays::RayCaster& caster);
     void join_emitters_in_one_place(const Scene& scene, const rays::RayCaster& caster);
     bool is_made_elsewhere(std::size_t light) const {
         return !made_elsewhere_.empty() && made_elsewhere_[light];
     }
-    /// The probability that sample_one_light() chooses a light there, times `pdf`.
-    double times_choice(double pdf, std::size_t light, const SurfacePoint& at) const;
-    /// More than kFew lights are chosen by the tree, and the light from infinity separately.
-    bool goes_by_tree() const { return count() > kFew; }
-    /// The leaves of a tree of all lights at finite distance that meet the condition.
-    template <typename Condition>
-    LightTree planted_tree(const Scene& scene, const Condition& condition) const;
+    /// The density of sample_one_light(), by that of samples of the light alone.
+    double times_choice(double pdf_per_sr, std::size_t light, const SurfacePoint& at) const;
+    /// Calls `visit(light)` for evenly chosen samples of a light, divided by their expected numbers.
+    template <typename Visit>
+    void sample_some(const LightChoice& choice, const SurfacePoint& at, std::uint32_t samples,
+                     math::SampleStream& stream, const Visit& visit) const;
+    std::optional<IncidentLight> sample_chosen(std::size_t light, double expected, const SurfacePoint& at,
+                                               const std::array<double, 2>& u) const;
     bool chooses_extended(const SurfacePoint& at) const { return chooses_extended() && !at.is_in_open(); }
-    auto rough_at(const SurfacePoint& at) const {
-        return [this, &at](std::uint32_t light) { return rough_illuminance_lx(light, at); };
-    }
-    class Choices;
-    double tree_probability(std::size_t light, const SurfacePoint& at) const;
 
     std::vector<lights::Emitter> emitters_;
     std::vector<LightLocation> locations_;
@@ -144,30 +151,10 @@ class LightSampler {
     /// For each light another one whose emitter lies in the same place, in a ring; itself where it is alone.
     std::vector<std::uint32_t> next_in_place_;
     std::vector<bool> made_elsewhere_;
-    LightTree tree_;                    ///< of the lights at finite distance that are not made elsewhere
-    LightTree extended_;                ///< of the lights with a surface, where they are many
+    LightChoice all_;                   ///< that are not made elsewhere
+    LightChoice extended_;              ///< those with a surface, where they are many
     std::uint32_t outside_ = kNoLight;  ///< the light from infinity
     bool has_visible_lights_ = false;
-};
-
-/// The lights at a point of a surface, by their unshadowed contributions. Keeps references to its arguments.
-class LightSampler::Choices {
-  public:
-    Choices(const LightSampler& lights, const SurfacePoint& at);
-    /// Whether no light reaches the point.
-    bool is_empty() const { return !(all_lx_ > 0); }
-    /// Precondition: not empty.
-    math::DiscreteChoice choose(double u) const;
-    /// A sample of a chosen light, divided by its expected number among so many choices.
-    std::optional<IncidentLight> sample(const math::DiscreteChoice& choice, const std::array<double, 2>& u,
-                                        std::uint32_t choices) const;
-
-  private:
-    const LightSampler& lights_;
-    const SurfacePoint& at_;
-    std::array<double, kFew> sums_lx_;  ///< running, of few lights; unset where they go by the tree
-    LightTree::Cut cut_;                ///< of many lights
-    double outside_lx_ = 0, all_lx_ = 0;
 };
 
 template <typename Visit>
@@ -183,18 +170,24 @@ void LightSampler::for_each_emission(const rays::Hit& hit, const Vec3& leaving, 
 }
 
 template <typename Visit>
+void LightSampler::sample_some(const LightChoice& choice, const SurfacePoint& at, std::uint32_t samples,
+                               math::SampleStream& stream, const Visit& visit) const {
+    const LightChoice::At choice_at(choice, *this, at);
+    if (choice_at.is_empty()) return;
+    const auto [first, across] = stream.next_two();
+    // The remainders of one light's samples are even, and so are multiples of the golden ratio.
+    std::uint32_t number = 0;
+    choose_evenly(choice_at, samples, first, [&](const math::DiscreteChoice& chosen, double expected) {
+        const double v = across + 0.6180339887498949 * number++;
+        const std::array<double, 2> u{chosen.remainder, v - std::floor(v)};
+        if (const auto light = sample_chosen(chosen.index, expected, at, u)) visit(*light);
+    });
+}
+
+template <typename Visit>
 void LightSampler::sample_some_lights(const SurfacePoint& at, std::uint32_t samples,
                                       math::SampleStream& stream, const Visit& visit) const {
-    const Choices choices(*this, at);
-    if (choices.is_empty()) return;
-    const auto [first, across] = stream.next_two();
-    for (std::uint32_t i = 0; i < samples; ++i) {
-        const auto choice = choices.choose((i + first) / samples);
-        // The remainders of one light's samples are even, and so are multiples of the golden ratio.
-        const double v = across + 0.6180339887498949 * i;
-        if (const auto light = choices.sample(choice, {choice.remainder, v - std::floor(v)}, samples))
-            visit(*light);
-    }
+    sample_some(all_, at, samples, stream, visit);
 }
 
 template <typename Visit>
@@ -203,26 +196,13 @@ void LightSampler::sample_extended(const SurfacePoint& at, math::SampleStream& s
     const auto sample = [&](std::size_t light) {
         if (const auto incident = sample_incident(light, at, stream.next_two())) visit(*incident);
     };
-    if (!chooses_extended(at)) {
-        for (std::size_t light = 0; light < count(); ++light) {
-            if (!is_point(light)) sample(light);
-        }
+    if (chooses_extended(at)) {
+        if (outside_ != kNoLight) sample(outside_);
+        sample_some(extended_, at, kExtended, stream, visit);
         return;
     }
-    if (outside_ != kNoLight) sample(outside_);
-    const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut(at, rough_lx);
-    if (!(cut.total_lx() > 0)) return;
-    const double first = stream.next();
-    for (std::size_t i = 0; i < kFew; ++i) {
-        const double u = (static_cast<double>(i) + first) / kFew;
-        const auto choice = extended_.choose(cut, at, u, rough_lx);
-        auto incident = sample_incident(choice.index, at, stream.next_two());
-        if (!incident) continue;
-        const double expected = kFew * choice.probability;
-        incident->normal_illuminance_lx *= 1 / expected;
-        incident->pdf_per_sr *= expected;
-        visit(*incident);
+    for (std::size_t light = 0; light < count(); ++light) {
+        if (!is_point(light)) sample(light);
     }
 }
 

@@ -43,19 +43,14 @@ double DirectLight::Remainder::rays(std::size_t receivers) const {
 
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
     : scene_(scene), caster_(caster), lights_(lights), has_many_lamps_(lights.chooses_extended()) {
-    std::vector<LightTree::Light> leaves;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
-        if (const auto origin = lights::point_origin(light)) {
+        if (lights.is_point(i)) {
             points_.push_back(i);
-            const double intensity_cd = flux_lm(scene, light).luminance() / (4 * kPi);
-            leaves.push_back(
-                {static_cast<std::uint32_t>(i), {}, lights.choice_favour(i) * intensity_cd, true});
-            leaves.back().bounds.include(origin->position);
         } else if (auto lamp = UniformLamp::of(scene, light, caster.lift())) {
             lamps_.push_back(std::move(*lamp));
             of_lamps_.push_back(i);
-        } else if (auto opening = OpeningLamp::of(scene, light, caster.lift())) {
+        } else if (auto opening = OpeningLamp::of(scene, i, lights, caster.lift())) {
             openings_.push_back(std::move(*opening));
             of_openings_.push_back(i);
         } else if (has_many_lamps_ && location_of(light) == LightLocation::surface) {
@@ -64,7 +59,9 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
             others_.push_back(i);
         }
     }
-    if (points_.size() > kFewPoints) tree_of_points_ = LightTree(std::move(leaves));
+    if (points_.size() > kFewPoints)
+        tree_of_points_ =
+            LightTree(lights.leaves(scene, [&](std::size_t light) { return lights.is_point(light); }));
     if (lamp_count() > 0) shafts_.emplace(scene, caster.center());
 }
 
@@ -124,12 +121,10 @@ double DirectLight::rough_lx(std::size_t lamp, const SurfacePoint& at) const {
     return lights_.rough_illuminance_lx(light_of(lamp), at);
 }
 
-std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const SurfacePoint& at,
-                                                   math::SampleStream& stream) const {
+std::optional<DirectSample> DirectLight::sample_lamp(std::size_t lamp, const SurfacePoint& at,
+                                                     math::SampleStream& stream) const {
     if (lamp < lamps_.size()) return lamps_[lamp].sample(at, stream);
-    if (lamp < lamp_count()) return openings_[lamp - lamps_.size()].sample(at, stream);
-    const auto incident = lights_.sample_incident(surfaces_[lamp - lamp_count()], at, stream.next_two());
-    return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
+    return direct_sample(lights_.sample_incident(light_of(lamp), at, stream.next_two()), at);
 }
 
 DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, bool settles,
@@ -249,8 +244,8 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
     for (std::size_t i = 0; i < tile.size(); ++i) {
         if ((remainder.lamps[i] >> lamp & 1u) == 0) continue;
         if (const auto sample = sample_lamp(lamp, tile[i].point(), streams[i]))
-            shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
-                            sample->illuminance_lx * *tile[i].constant_response(), light_of(lamp));
+            shadow_rays.add(i, sample->segment, sample->illuminance_lx * *tile[i].constant_response(),
+                            light_of(lamp));
     }
     shadow_rays.trace(caster_, light);
 }
@@ -265,7 +260,7 @@ void DirectLight::add_chosen_lamps(std::span<const Receiver> tile, const Remaind
             if (choice >= remainder.open[i].choices()) continue;
             const auto [lamp, factor] = remainder.open[i].choose(choice, first[i]);
             if (const auto sample = sample_lamp(lamp, tile[i].point(), streams[i]))
-                shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
+                shadow_rays.add(i, sample->segment,
                                 factor * sample->illuminance_lx * *tile[i].constant_response(),
                                 light_of(lamp));
         }
@@ -324,14 +319,13 @@ void DirectLight::add_chosen_points(std::span<const Receiver> tile, math::Sample
     if (lights.is_empty()) return;
     std::size_t previous = ~std::size_t{0};
     double factor = 0;
-    for (std::size_t i = 0; i < kChosen; ++i) {
-        const auto choice = lights.choose((static_cast<double>(i) + first) / kChosen);
+    choose_evenly(lights, kChosen, first, [&](const math::DiscreteChoice& choice, double expected) {
         if (choice.index != previous) {
             if (factor > 0) add_point(tile, previous, factor, light);
             previous = choice.index, factor = 0;
         }
-        factor += 1 / (kChosen * choice.probability);
-    }
+        factor += 1 / expected;
+    });
     add_point(tile, previous, factor, light);
 }
 

@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <variant>
 
 namespace stilb::transport {
 namespace {
 
-/// Openings of more elements are sampled.
+/// Surfaces of more elements are sampled.
 constexpr std::size_t kMostElements = 64;
 
 /// Rules over (0, 1), each with twice the nodes of the one before.
@@ -28,20 +27,16 @@ const std::array<math::GaussLegendre, 4>& rules() {
 
 }  // namespace
 
-std::optional<OpeningLamp> OpeningLamp::of(const Scene& scene, const Light& light, const Lift& lift) {
-    const auto* opening = std::get_if<LuminousOpening>(&light.source);
-    if (opening == nullptr) return std::nullopt;
-    OpeningLamp lamp(scene, *opening, lift);
+std::optional<OpeningLamp> OpeningLamp::of(const Scene& scene, std::size_t light, const LightSampler& lights,
+                                           const Lift& lift) {
+    const auto object = lights::emitting_object(scene.lights[light]);
+    if (!object || lights::uniform_emission(scene.lights[light])) return std::nullopt;
+    std::vector<lights::EmitterElement> elements = lights::emitter_elements(scene.object(*object).shape);
     const bool is_flat = std::ranges::all_of(
-        lamp.elements_, [](const lights::EmitterElement& element) { return element.normal.has_value(); });
-    if (!is_flat || lamp.elements_.size() > kMostElements) return std::nullopt;
-    return lamp;
+        elements, [](const lights::EmitterElement& element) { return element.normal.has_value(); });
+    if (!is_flat || elements.size() > kMostElements) return std::nullopt;
+    return OpeningLamp(light, lights, *object, std::move(elements), lift);
 }
-
-OpeningLamp::OpeningLamp(const Scene& scene, const LuminousOpening& opening, const Lift& lift)
-    : emitter_(opening, scene::LightSurroundings(scene), lift),
-      elements_(lights::emitter_elements(scene.object(opening.object).shape)),
-      hull_(opening.object, elements_, lift) {}
 
 bool OpeningLamp::may_light(const SurfacePoint& at) const {
     return std::ranges::any_of(elements_, [&](const lights::EmitterElement& element) {
@@ -73,16 +68,11 @@ Rgb OpeningLamp::sum_lx(const SurfacePoint& at, const math::GaussLegendre& rule)
                     std::max(dot(direction, at.normal), 0.0) * std::max(-dot(direction, point.normal), 0.0);
                 if (!(cosines > 0)) continue;
                 const double area_m2 = rule.weights[i] * rule.weights[j] * point.weight * element.area_m2;
-                sum += (area_m2 * cosines / squared_m2) * emitter_.luminance_cd_m2(-direction);
+                sum += (area_m2 * cosines / squared_m2) * lights_.front_luminance(light_, -direction);
             }
         }
     }
     return sum;
-}
-
-std::optional<LampSample> OpeningLamp::sample(const SurfacePoint& at, math::SampleStream& stream) const {
-    const auto incident = emitter_.sample_incident(at, stream.next_two());
-    return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
 }
 
 }  // namespace stilb::transport

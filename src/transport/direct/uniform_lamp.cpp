@@ -30,14 +30,14 @@ double UniformLamp::projected_solid_angle_sr(const SurfacePoint& at) const {
     return sum;
 }
 
-std::optional<LampSample> UniformLamp::sample(const SurfacePoint& at, math::SampleStream& stream) const {
-    const auto sample_of = [&](const lights::EmitterElement& element) -> std::optional<LampSample> {
+std::optional<DirectSample> UniformLamp::sample(const SurfacePoint& at, math::SampleStream& stream) const {
+    const auto sample_of = [&](const lights::EmitterElement& element) -> std::optional<DirectSample> {
         const auto sample = lights::sample_projected(element, at, stream);
         if (!sample) return std::nullopt;
         const Vec3& position = sample->point.position;
         const double lift_m = lift_.offset_m(position, element.size_m, length(position - at.position));
-        return LampSample{position + lift_m * sample->point.normal,
-                          sample->projected_solid_angle_sr * luminance_cd_m2_};
+        return DirectSample{{at.lifted, position + lift_m * sample->point.normal},
+                            sample->projected_solid_angle_sr * luminance_cd_m2_};
     };
     if (elements_.size() == 1) return sample_of(elements_[0]);
     const double u = stream.next();

@@ -6,6 +6,7 @@
 
 #include "lights/solid_angle/projected_solid_angle.h"
 #include "scene/scene.h"
+#include "transport/direct/direct_sample.h"
 #include "transport/direct/lamp_hull.h"
 
 namespace stilb::transport {
@@ -23,7 +24,7 @@ class UniformLamp {
         return projected_solid_angle_sr(at) * luminance_cd_m2_;
     }
     /// The light from a point of the front that is drawn by projected solid angle.
-    std::optional<LampSample> sample(const SurfacePoint& at, math::SampleStream& stream) const;
+    std::optional<DirectSample> sample(const SurfacePoint& at, math::SampleStream& stream) const;
 
   private:
     UniformLamp(ObjectId object, const Rgb& luminance_cd_m2, std::vector<lights::EmitterElement> elements,

@@ -4,9 +4,12 @@
 #include <cmath>
 
 #include "math/random.h"
+#include "transport/direct/direct_sample.h"
 
 namespace stilb::walk {
 namespace {
+
+using transport::direct_sample;
 
 /// Points on a light with a surface, and on light from infinity, which is seen through small windows.
 constexpr std::size_t kFewOnSurface = 16, kManyOnSurface = 64, kFewOutside = 64, kManyOutside = 256;
@@ -16,21 +19,6 @@ constexpr std::size_t kMostFew = 256, kLeastFew = 4;
 constexpr std::size_t kGroups = 4;
 /// Relative standard error for which few points suffice.
 constexpr double kSmallError = 0.005;
-
-/// Light that a sample would bring without anything in between [lx].
-struct Arrival {
-    rays::Segment segment;
-    Rgb illuminance_lx;
-};
-
-std::optional<Arrival> arrival(const transport::LightSampler& sampler, std::size_t light,
-                               const SurfacePoint& point, const std::array<double, 2>& u) {
-    const auto incident = sampler.sample_incident(light, point, u);
-    if (!incident) return std::nullopt;
-    const double cosine = dot(incident->direction, point.normal);
-    if (!(cosine > 0)) return std::nullopt;
-    return Arrival{{point.lifted, incident->source_point}, cosine * incident->normal_illuminance_lx};
-}
 
 }  // namespace
 
@@ -60,9 +48,9 @@ double DirectLight::add(const SurfacePoint& point, double share, std::span<float
 }
 
 DirectLight::Estimate DirectLight::by_point_light(std::size_t light, const SurfacePoint& point) const {
-    const auto arriving = arrival(sampler_, light, point, {});
-    if (!arriving || !(arriving->illuminance_lx.max() > 0)) return {};
-    return {(arriving->illuminance_lx * caster_.transmittance(arriving->segment)).luminance()};
+    const auto sample = direct_sample(sampler_.sample_incident(light, point, {}), point);
+    if (!sample) return {};
+    return {(sample->illuminance_lx * caster_.transmittance(sample->segment)).luminance()};
 }
 
 DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const SurfacePoint& point) const {
@@ -79,10 +67,10 @@ DirectLight::Estimate DirectLight::by_points(std::size_t light, const SurfacePoi
     std::vector<Rgb> arriving_lx;
     std::vector<std::size_t> groups;
     for (std::size_t k = 0; k < points; ++k) {
-        const auto arriving = arrival(sampler_, light, point, pattern_[k]);
-        if (!arriving) continue;
-        segments.push_back(arriving->segment);
-        arriving_lx.push_back(arriving->illuminance_lx);
+        const auto sample = direct_sample(sampler_.sample_incident(light, point, pattern_[k]), point);
+        if (!sample) continue;
+        segments.push_back(sample->segment);
+        arriving_lx.push_back(sample->illuminance_lx);
         groups.push_back(k * kGroups / points);
     }
     std::vector<Rgb> transmittances(segments.size());
