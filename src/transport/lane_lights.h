@@ -1,7 +1,6 @@
 // Next-event estimation for sixteen surface points at once, in scenes that have few lights, all of them
-// points or right-angled rectangles. Other scenes take LightSampler, point by point. The expectation is the
-// same; densities are this class's own, so that MIS weights at a vertex take either this class or
-// LightSampler.
+// points or right-angled rectangles: packet_lights.h says when. The expectation is that of LightSampler, in a
+// fraction of its time; the densities are its own.
 #pragma once
 
 #include <array>

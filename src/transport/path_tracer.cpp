@@ -16,7 +16,8 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
       lights_(lights),
       stored_(stored),
       plain_materials_(scene.materials.size()),
-      may_emit_(scene.objects.size()) {
+      may_emit_(scene.objects.size()),
+      packet_lights_(scene, caster, lights) {
     for (const Light& light : scene.lights) {
         if (const auto surface = lights::emitting_object(light)) may_emit_[index_of(*surface)] = true;
     }
@@ -28,7 +29,6 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
         for (std::size_t b = 0; b < kBands; ++b)
             plain_materials_[i].reflectance[b] = static_cast<float>(diffuse->reflectance[b]);
     }
-    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.lift(), lights);
 }
 
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
@@ -134,10 +134,8 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
 double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, std::size_t light,
                               const rays::Hit& emitter) const {
     const SurfacePoint& from = previous_vertex.point;
-    if (!previous_vertex.took_lanes) return lights_.pdf_per_sr(light, emitter, from);
-    const Vec3& center = caster_.center();
-    return double{
-        lane_lights_->pdf_per_sr(light, emitter.position - center, from.position - center, from.normal)};
+    return previous_vertex.in_packet ? packet_lights_.pdf_per_sr(light, emitter, from)
+                                     : lights_.pdf_per_sr(light, emitter, from);
 }
 
 void PathTracer::leave(Path& path, const Vec3& direction) const {

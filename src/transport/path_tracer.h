@@ -17,9 +17,9 @@
 #include <span>
 #include <vector>
 
-#include "transport/lane_lights.h"
 #include "transport/light_parts.h"
 #include "transport/light_sampler.h"
+#include "transport/packet_lights.h"
 #include "transport/path_packet.h"
 #include "transport/weights.h"
 
@@ -30,8 +30,8 @@ struct PreviousVertex {
     /// Density of the path's direction; infinite where next-event estimation cannot find the light of the
     /// path, 0 where it finds all of it.
     double pdf_per_sr = std::numeric_limits<double>::infinity();
-    SurfacePoint point{};     ///< where the density is finite
-    bool took_lanes = false;  ///< next-event estimation there was that of LaneLights
+    SurfacePoint point{};    ///< where the density is finite
+    bool in_packet = false;  ///< next-event estimation there was that of PacketLights
 };
 
 /// For paths that leave out directly visible emission.
@@ -165,7 +165,7 @@ class PathTracer {
     const StoredReflection* stored_;
     std::vector<PlainMaterial> plain_materials_;  ///< by MaterialId
     std::vector<bool> may_emit_;                  ///< by ObjectId
-    std::optional<LaneLights> lane_lights_;
+    PacketLights packet_lights_;
 };
 
 /// The MIS weight of light that a path finds by itself. `other_pdf_per_sr`: the density of next-event
