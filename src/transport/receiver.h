@@ -109,23 +109,4 @@ std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Mea
 /// kPacketWidth on. A reading may have several (several sub-points) or none.
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
 
-// Direct light at receivers, through panes too, integrated separately
-// [LocalEstimation 3].
-
-/// A light's sample at a receiver, with its sensitivity and shadows, without its response. Direction and
-/// distance are those of the point itself; only the shadow ray starts lifted.
-Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster);
-
-/// The light from all point lights at a receiver: exact, one shadow ray each. `parts`: may be null, here and
-/// below.
-Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
-                       LightParts* parts = nullptr);
-
-/// One sample of the light from all other lights at a receiver: each separately and, where the response
-/// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
-/// heuristic.
-Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
-                             const LightSampler& lights, math::SampleStream& stream,
-                             LightParts* parts = nullptr);
-
 }  // namespace stilb::transport

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "transport/direct/one_receiver.h"
 #include "transport/direct/tile_choice.h"
 
 namespace stilb::transport {

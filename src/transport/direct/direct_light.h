@@ -19,7 +19,7 @@
 //
 // Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
 // kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose
-// response depends on direction, are sampled as in sample_direct_from_areas() (receiver.h).
+// response depends on direction, are sampled as in sample_direct_from_areas() (one_receiver.h).
 #pragma once
 
 #include <algorithm>
