@@ -34,9 +34,9 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= emission_favours_[i];
     by_emission_ = math::DiscreteDistribution(weights);
     set_choice_favours(caster);
-    const auto all = leaves(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); });
-    all_ = {all, has_light_from_outside() && !is_made_elsewhere(outside_) ? std::optional(outside_)
-                                                                          : std::nullopt};
+    const bool chooses_outside = has_light_from_outside() && !is_made_elsewhere(outside_);
+    all_ = {leaves(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); }),
+            chooses_outside ? std::optional(outside_) : std::nullopt};
     std::vector<LightTree::Light> extended = leaves(scene, [&](std::uint32_t i) { return !is_point(i); });
     if (extended.size() > LightChoice::kFew) extended_ = {std::move(extended), std::nullopt};
 }
