@@ -11,7 +11,7 @@
 #include "checks/walks.h"
 #include "math/sampling.h"
 #include "sensors/place.h"
-#include "transport/direct/direct_sample.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::checks {
 namespace {

@@ -86,16 +86,6 @@ bool shine_alike(const Light& a, const Light& b) {
         a.source);
 }
 
-std::optional<Rgb> uniform_intensity_cd(const Light& light) {
-    return std::visit(
-        []<LightKind L>(const L& source) -> std::optional<Rgb> {
-            if constexpr (L::kLocation == LightLocation::point && requires { source.intensity_cd; })
-                return source.intensity_cd;
-            return std::nullopt;
-        },
-        light.source);
-}
-
 std::optional<LightOrigin> point_origin(const Light& light) {
     return std::visit(
         []<LightKind L>(const L& source) -> std::optional<LightOrigin> {

@@ -64,8 +64,6 @@ std::optional<ObjectId> opening_of(const Light& light);
 bool shine_alike(const Light& a, const Light& b);
 /// The emitter of a point light; nothing for other lights.
 std::optional<LightOrigin> point_origin(const Light& light);
-/// The intensity of a point light that is the same in all directions; nothing for other lights.
-std::optional<Rgb> uniform_intensity_cd(const Light& light);
 
 }  // namespace stilb::lights
 

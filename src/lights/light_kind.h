@@ -81,11 +81,11 @@ struct LightDetail {
     std::variant<double, std::string> value;
 };
 
-/// The emission point of a point light; the axis points into the half space that it illuminates, if it is
-/// one-sided.
+/// The emission point of a point light.
 struct LightOrigin {
     Vec3 position;
-    std::optional<Vec3> axis;
+    std::optional<Vec3> axis{};         ///< into the half space that it illuminates, if it is one-sided
+    std::optional<Rgb> intensity_cd{};  ///< if that is the same in all directions
 };
 
 /// The interface of every emitter.

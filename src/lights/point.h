@@ -20,7 +20,7 @@ struct PointLight {
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { intensity_cd *= by; }
-    LightOrigin origin() const { return {position, std::nullopt}; }
+    LightOrigin origin() const { return {position, std::nullopt, intensity_cd}; }
     bool shines_like(const PointLight&) const { return true; }
 };
 

@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "statistics/interval.h"
-#include "transport/direct/direct_sample.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::run {

@@ -47,7 +47,16 @@ class LightChoice::At {
     double times_probability(double pdf_per_sr, std::uint32_t light) const;
 
   private:
-    auto rough() const;
+    /// The view of light_tree.h.
+    struct View {
+        const LightSampler& lights;
+        const SurfacePoint& at;
+        double nearness(const LightTree::Node& node) const {
+            return LightTree::nearness_of(node, at.position);
+        }
+        double estimate_lx(const LightTree::Node& node) const;
+    };
+    double rough_lx(std::uint32_t light) const;
 
     const LightChoice& choice_;
     const LightSampler& lights_;

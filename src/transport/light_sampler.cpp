@@ -90,13 +90,7 @@ void LightSampler::set_choice_favours(const rays::RayCaster& caster) {
     std::vector<double> flux_lm;
     for (std::size_t i = 0; i < count(); ++i)
         flux_lm.push_back(i == outside_ || is_made_elsewhere(i) ? 0 : flux_lm_[i].luminance());
-    const auto emit_one = [this](std::size_t light, math::SampleStream& stream) {
-        return emit(light, stream);
-    };
-    const auto rough_lx = [this](std::size_t light, const SurfacePoint& at) {
-        return rough_illuminance_lx(light, at);
-    };
-    choice_favours_ = choice_favours({flux_lm, emit_one, rough_lx, count(), outside_ != kNoLight}, caster);
+    choice_favours_ = choice_favours(*this, flux_lm, caster);
 }
 
 EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const {

@@ -19,6 +19,21 @@ namespace stilb::transport {
 
 using lights::IncidentLight;
 
+/// The light of a lamp at a point of a surface, if nothing lies in between.
+struct DirectSample {
+    rays::Segment segment;  ///< of its shadow ray
+    Rgb illuminance_lx;     ///< its mean over the samples is that of the whole lamp
+};
+
+/// Nothing where a sample of a light brings none.
+inline std::optional<DirectSample> direct_sample(const std::optional<IncidentLight>& incident,
+                                                 const SurfacePoint& at) {
+    if (!incident) return std::nullopt;
+    const double cosine = dot(incident->direction, at.normal);
+    if (!(cosine > 0) || !(incident->normal_illuminance_lx.max() > 0)) return std::nullopt;
+    return DirectSample{{at.lifted, incident->source_point}, cosine * incident->normal_illuminance_lx};
+}
+
 /// A particle that has just left a light source.
 struct EmittedParticle {
     Vec3 origin;  ///< lifted off the source
@@ -47,6 +62,11 @@ class LightSampler {
     /// and weak lights get more (weak_lights.h).
     EmittedParticle sample_emission(math::SampleStream& stream) const;
 
+    /// A particle of one light.
+    lights::Emission emit(std::size_t light, math::SampleStream& stream) const {
+        return std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[light]);
+    }
+
     std::size_t count() const { return emitters_.size(); }
     /// Light from a point source is computed exactly, without sampling.
     bool is_point(std::size_t light) const { return locations_[light] == LightLocation::point; }
@@ -67,7 +87,9 @@ class LightSampler {
     /// source as often as is its expected number, but for one; divided by their expected numbers.
     template <typename Visit>
     void sample_some_lights(const SurfacePoint& at, std::uint32_t samples, math::SampleStream& stream,
-                            const Visit& visit) const;
+                            const Visit& visit) const {
+        sample_some(all_, at, samples, stream, visit);
+    }
 
     /// Calls `visit(light)` for samples of all lights but points: for one of each or, where there are many
     /// and the point has a normal, for some that are chosen as in sample_one_light(), divided by their
@@ -123,9 +145,6 @@ class LightSampler {
     static constexpr std::uint32_t kExtended = 32;
 
     void add(const Light& light, const Scene& scene, const rays::RayCaster& caster);
-    lights::Emission emit(std::size_t light, math::SampleStream& stream) const {
-        return std::visit([&](const auto& emitter) { return emitter.emit(stream); }, emitters_[light]);
-    }
     LightTree::Light leaf(const Scene& scene, std::uint32_t light) const;
     void set_choice_favours(const rays::RayCaster& caster);
     void join_emitters_in_one_place(const Scene& scene, const rays::RayCaster& caster);
@@ -182,12 +201,6 @@ void LightSampler::sample_some(const LightChoice& choice, const SurfacePoint& at
         const std::array<double, 2> u{chosen.remainder, v - std::floor(v)};
         if (const auto light = sample_chosen(chosen.index, expected, at, u)) visit(*light);
     });
-}
-
-template <typename Visit>
-void LightSampler::sample_some_lights(const SurfacePoint& at, std::uint32_t samples,
-                                      math::SampleStream& stream, const Visit& visit) const {
-    sample_some(all_, at, samples, stream, visit);
 }
 
 template <typename Visit>

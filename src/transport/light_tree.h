@@ -62,42 +62,24 @@ class LightTree {
         std::array<double, kMostOpen> sums_lx_;
         std::size_t count_ = 0;
     };
-    template <typename Rough>
-    Cut cut(const SurfacePoint& at, const Rough& rough_lx) const {
-        return cut(PointView<Rough>{at, rough_lx});
-    }
-    /// The same for other receivers than a point: `view` has nearness(node) and estimate_lx(node).
+    /// `view`: of a receiver, with nearness(node) and estimate_lx(node).
     template <typename View>
     Cut cut(const View& view) const;
 
     /// A light's number with its probability; the cut of the same point must not be empty.
-    template <typename Rough>
-    math::DiscreteChoice choose(const Cut& cut, const SurfacePoint& at, double u,
-                                const Rough& rough_lx) const {
-        return choose(cut, PointView<Rough>{at, rough_lx}, u);
-    }
     template <typename View>
     math::DiscreteChoice choose(const Cut& cut, const View& view, double u) const;
     /// The probability that choose() selects a light of the tree.
-    template <typename Rough>
-    double probability(const Cut& cut, std::uint32_t number, const SurfacePoint& at,
-                       const Rough& rough_lx) const;
+    template <typename View>
+    double probability(const Cut& cut, std::uint32_t number, const View& view) const;
+
+    /// The squared ratio of a box's radius and its distance; boxes below kNear stay closed.
+    static double nearness_of(const Node& node, const Vec3& from);
+    static double box_lx(const Node& node, const SurfacePoint& at);
 
   private:
     void divide(std::uint32_t node, std::span<Light> lights);
-    /// The squared ratio of a box's radius and its distance; boxes below kNear stay closed.
-    static double nearness_of(const Node& node, const Vec3& from);
     static constexpr double kNear = 1. / 9;
-    static double box_lx(const Node& node, const SurfacePoint& at);
-    template <typename Rough>
-    struct PointView {
-        const SurfacePoint& at;
-        const Rough& rough_lx;
-        double nearness(const Node& node) const { return nearness_of(node, at.position); }
-        double estimate_lx(const Node& node) const {
-            return node.is_point ? rough_lx(node.first) : box_lx(node, at);
-        }
-    };
     /// The probability of the first child. A box may have a corner above the horizon where neither child has
     /// one.
     template <typename View>
@@ -168,10 +150,8 @@ math::DiscreteChoice LightTree::choose(const Cut& cut, const View& view, double 
     return choice;
 }
 
-template <typename Rough>
-double LightTree::probability(const Cut& cut, std::uint32_t number, const SurfacePoint& at,
-                              const Rough& rough_lx) const {
-    const PointView<Rough> view{at, rough_lx};
+template <typename View>
+double LightTree::probability(const Cut& cut, std::uint32_t number, const View& view) const {
     double below = 1;
     const auto end = cut.nodes_.begin() + static_cast<std::ptrdiff_t>(cut.count_);
     for (std::uint32_t node = node_of_[number];; node = nodes_[node].parent) {

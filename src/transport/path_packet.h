@@ -7,7 +7,7 @@
 
 #include "math/random_lanes.h"
 #include "rays/ray_caster.h"
-#include "transport/packet_lights.h"
+#include "transport/lane_lights.h"
 
 namespace stilb::transport {
 

@@ -17,9 +17,9 @@
 #include <span>
 #include <vector>
 
+#include "transport/lane_lights.h"
 #include "transport/light_parts.h"
 #include "transport/light_sampler.h"
-#include "transport/packet_lights.h"
 #include "transport/path_packet.h"
 #include "transport/weights.h"
 

@@ -9,7 +9,6 @@
 #include "math/morton.h"
 #include "sensors/place.h"
 #include "transport/weights.h"
-#include "transport/weights.h"
 
 namespace stilb::transport {
 

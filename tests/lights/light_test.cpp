@@ -67,14 +67,14 @@ TEST(Light, IsAtOnePlace) {
 TEST(Light, ShinesLikeOthersOfItsKindAndDirections) {
     Scene scene = three_lights();
     const Light &point = scene.lights[0], &area = scene.lights[1];
-    EXPECT_EQ(uniform_intensity_cd(point), std::optional(Rgb{{1, 2, 3}}));
-    EXPECT_FALSE(uniform_intensity_cd(area));
+    EXPECT_EQ(point_origin(point)->intensity_cd, std::optional(Rgb{{1, 2, 3}}));
     EXPECT_TRUE(shine_alike(point, {"", PointLight{{4, 5, 6}, Rgb::grey(1)}}));
     EXPECT_FALSE(shine_alike(point, area));
     Luminaire luminaire{{0, 0, 2}, SolidId{0}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, Rgb::grey(1)};
     const Light down{"", luminaire}, opening{"", LuminousOpening{ObjectId{0}, luminaire}};
     luminaire.position = {3, 0, 2};
     EXPECT_TRUE(shine_alike(down, {"", luminaire}));
+    EXPECT_FALSE(point_origin(down)->intensity_cd);
     EXPECT_TRUE(shine_alike(opening, {"", LuminousOpening{ObjectId{1}, luminaire}}));
     EXPECT_FALSE(shine_alike(down, opening));
     luminaire.nadir = {0, 0, 1};

@@ -6,7 +6,6 @@
 
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
-#include "transport/direct/direct_sample.h"
 #include "transport/light_sampler.h"
 
 namespace stilb::transport {

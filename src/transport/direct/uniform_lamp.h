@@ -6,8 +6,8 @@
 
 #include "lights/solid_angle/projected_solid_angle.h"
 #include "scene/scene.h"
-#include "transport/direct/direct_sample.h"
 #include "transport/direct/lamp_hull.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::transport {
 

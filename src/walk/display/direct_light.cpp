@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "math/random.h"
-#include "transport/direct/direct_sample.h"
 
 namespace stilb::walk {
 namespace {

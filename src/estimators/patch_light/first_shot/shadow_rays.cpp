@@ -7,7 +7,6 @@
 #include <functional>
 
 #include "base/parallel.h"
-#include "transport/direct/direct_sample.h"
 
 namespace stilb::estimators {
 
