@@ -16,6 +16,7 @@
 #include "materials/diffuse.h"
 #include "rooms.h"
 #include "transport/direct/direct_light.h"
+#include "transport/direct/one_receiver.h"
 
 namespace stilb {
 namespace {

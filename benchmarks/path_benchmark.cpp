@@ -99,7 +99,7 @@ PreparedRays prepare_rays(const Scene& scene, const rays::RayCaster& caster) {
                     }
                     const auto hit = caster.closest(walk.ray.origin, walk.ray.direction);
                     if (!hit) continue;
-                    const auto light = lights.sample_one_light(hit->position, hit->normal, stream);
+                    const auto light = lights.sample_one_light(*hit, stream);
                     if (light && dot(light->direction, hit->normal) > 0) {
                         prepared.add(is_first ? prepared.first_segments : prepared.segments,
                                      is_first ? first_segments : segments, {hit->lifted, light->source_point},

@@ -54,11 +54,6 @@ struct ComponentId {
 /// the points crosses a surface.
 using Enclosure = std::vector<ComponentId>;
 
-/// A point (lifted off its surface, if any) and a direction into the open from there.
-struct ProbeRay {
-    Vec3 position, direction;
-};
-
 /// Keeps references to scene and caster. Immutable.
 class Enclosures {
   public:
@@ -67,8 +62,8 @@ class Enclosures {
                std::shared_ptr<const SceneFindings> findings = nullptr);
 
     /// The enclosure of a light that the point sees. Else by the parity of the surfaces that three rays into
-    /// the hemisphere of the probe's direction cross, by majority.
-    Enclosure enclosure_of(const ProbeRay& probe_ray) const;
+    /// the hemisphere of its normal cross, by majority.
+    Enclosure enclosure_of(const SurfacePoint& point) const;
     /// The enclosures where each light's rays start: one for points, those around the parts of an emitting
     /// object, the outside of all components for light from infinity.
     const std::vector<std::vector<Enclosure>>& of_lights() const { return of_lights_; }
@@ -78,24 +73,24 @@ class Enclosures {
     const SceneFindings& findings() const { return *findings_; }
     const std::vector<geometry::ConnectedComponents>& components() const { return findings_->components; }
     /// Starts of the light's rays: the first from its first component, others from all of its parts.
-    std::vector<ProbeRay> probe_rays_of(const Light& light) const;
+    std::vector<SurfacePoint> starts_of(const Light& light) const;
 
   private:
-    struct LightLocation {
+    struct TriedLight {
         Vec3 position;
         Enclosure enclosure;
     };
 
     /// The component that a ray crosses, if it is closed.
     std::optional<ComponentId> closed_component(const rays::Crossing& crossing) const;
-    Enclosure voted_enclosure(const ProbeRay& probe_ray) const;
+    Enclosure voted_enclosure(const SurfacePoint& point) const;
     Enclosure crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const;
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
     std::shared_ptr<const SceneFindings> findings_;
     std::vector<std::vector<Enclosure>> of_lights_;
-    std::vector<LightLocation> tried_;  ///< the lights whose visibility from a point is tested
+    std::vector<TriedLight> tried_;  ///< the lights whose visibility from a point is tested
 };
 
 // Surfaces that were probably meant to be closed.
@@ -132,8 +127,9 @@ std::vector<std::string> opening_warnings(const Scene& scene);
 
 // Misplaced sensors and lights.
 
-/// A ray along which the light of the sensor's first reading arrives; of a camera, that of its middle.
-ProbeRay first_ray_of(const Sensor& sensor, const rays::RayCaster& caster);
+/// Where the light of the sensor's first reading arrives, and from which side; of a camera, that of its
+/// middle.
+SurfacePoint first_point_of(const Sensor& sensor, const rays::RayCaster& caster);
 
 /// Lights and sensors that a warning names already: later checks leave them out, one message for one mistake.
 struct Explained {

@@ -16,72 +16,71 @@ constexpr std::array<Vec3, 3> kDirections{
     {{0.2673, 0.5345, 0.8018}, {-0.6851, 0.2114, 0.6971}, {0.4412, -0.7727, 0.4565}}};
 /// Directions all around, the first upwards.
 constexpr std::array<Vec3, 6> kAround{{{0, 0, 1}, {0, 0, -1}, {1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}};
-/// Where probes of a disk start, beside its middle: at this share of the radius.
+/// Where rays of a disk start, beside its middle: at this share of the radius.
 constexpr double kNearRim = 0.8;
 /// Lights whose visibility is tested before the enclosure of a point is determined.
 constexpr std::size_t kMostLightsTried = 8;
 
-/// A probe lifted off the surface at `position` to the side of the unit vector `normal`.
-ProbeRay probe_ray_off(const Vec3& position, const Vec3& normal, double size_m,
-                       const rays::RayCaster& caster) {
-    return {position + caster.offset_m(position, size_m) * normal, normal};
+/// On a surface of size `size_m`.
+SurfacePoint lifted_point(const Vec3& position, const Vec3& normal, double size_m,
+                          const rays::RayCaster& caster) {
+    return {position, normal, position + caster.offset_m(position, size_m) * normal};
 }
 
-/// Probes off the front: one from every component, and more from other parts, because a lamp may stand half
+/// Points of the front: one from every component, and more from other parts, because a lamp may stand half
 /// in a wall.
-struct ProbeRaysOfShape {
+struct StartsOnShape {
     const geometry::ConnectedComponents& components;
     const rays::RayCaster& caster;
 
     static constexpr std::size_t kMoreOfMesh = 8;
 
-    std::vector<ProbeRay> operator()(const Mesh& mesh) const {
-        std::vector<ProbeRay> probe_rays;
+    std::vector<SurfacePoint> operator()(const Mesh& mesh) const {
+        std::vector<SurfacePoint> points;
         const std::size_t count = mesh.triangles.size();
         const auto add = [&](std::size_t triangle) {
             const auto [a, b, c] = mesh.corners_of(triangle);
             const Vec3 normal = normalized(cross(b - a, c - a));
-            probe_rays.push_back(
-                probe_ray_off((a + b + c) / 3, normal, length(b - a) + length(c - a), caster));
+            points.push_back(lifted_point((a + b + c) / 3, normal, length(b - a) + length(c - a), caster));
         };
         for (std::size_t t = 0; t < count; ++t) {
             // Components are numbered by their first triangles.
-            if (components.of_triangle[t] == probe_rays.size()) add(t);
+            if (components.of_triangle[t] == points.size()) add(t);
         }
         const std::size_t more = std::min(count, kMoreOfMesh);
         for (std::size_t i = 0; i < more; ++i) add((2 * i + 1) * count / (2 * more));
-        return probe_rays;
+        return points;
     }
-    std::vector<ProbeRay> operator()(const Instance& instance) const {
+    std::vector<SurfacePoint> operator()(const Instance& instance) const {
         return (*this)(triangulated(instance));
     }
-    std::vector<ProbeRay> operator()(const Rectangle& rectangle) const {
+    std::vector<SurfacePoint> operator()(const Rectangle& rectangle) const {
         return (*this)(triangulated(rectangle));
     }
-    std::vector<ProbeRay> operator()(const Box& box) const { return (*this)(triangulated(box)); }
-    std::vector<ProbeRay> operator()(const Sphere& sphere) const {
-        std::vector<ProbeRay> probe_rays;
+    std::vector<SurfacePoint> operator()(const Box& box) const { return (*this)(triangulated(box)); }
+    std::vector<SurfacePoint> operator()(const Sphere& sphere) const {
+        std::vector<SurfacePoint> points;
         for (const Vec3& normal : kAround)
-            probe_rays.push_back(
-                probe_ray_off(sphere.center + sphere.radius * normal, normal, sphere.radius, caster));
-        return probe_rays;
+            points.push_back(
+                lifted_point(sphere.center + sphere.radius * normal, normal, sphere.radius, caster));
+        return points;
     }
-    std::vector<ProbeRay> operator()(const Harmonics& harmonics) const {
-        std::vector<ProbeRay> probe_rays;
+    std::vector<SurfacePoint> operator()(const Harmonics& harmonics) const {
+        std::vector<SurfacePoint> points;
         for (const Vec3& direction : kAround) {
             const Vec3 point = harmonics.point_towards(direction);
-            probe_rays.push_back(probe_ray_off(point, harmonics.normal_towards(direction),
-                                               length(point - harmonics.center), caster));
+            points.push_back(lifted_point(point, harmonics.normal_towards(direction),
+                                          length(point - harmonics.center), caster));
         }
-        return probe_rays;
+        return points;
     }
-    std::vector<ProbeRay> operator()(const Disk& disk) const {
-        std::vector<ProbeRay> probe_rays{probe_ray_off(disk.center, disk.normal, disk.radius, caster)};
+    std::vector<SurfacePoint> operator()(const Disk& disk) const {
+        std::vector<SurfacePoint> points{lifted_point(disk.center, disk.normal, disk.radius, caster)};
         const Frame frame = Frame::around(disk.normal);
         for (const Vec3& along : {frame.u, -frame.u, frame.v, -frame.v})
-            probe_rays.push_back(probe_ray_off(disk.center + kNearRim * disk.radius * along, disk.normal,
-                                               disk.radius, caster));
-        return probe_rays;
+            points.push_back(
+                lifted_point(disk.center + kNearRim * disk.radius * along, disk.normal, disk.radius, caster));
+        return points;
     }
 };
 
@@ -94,13 +93,13 @@ Enclosures::Enclosures(const Scene& scene, const rays::RayCaster& caster,
       findings_(findings ? std::move(findings) : std::make_shared<const SceneFindings>(scene)) {
     for (const Light& light : scene.lights) {
         std::vector<Enclosure>& enclosures = of_lights_.emplace_back();
-        if (location_of(light) == stilb::LightLocation::infinity)
+        if (location_of(light) == LightLocation::infinity)
             enclosures.push_back({});  // outside of all components
-        for (const ProbeRay& probe_ray : probe_rays_of(light)) {
-            const Enclosure enclosure = voted_enclosure(probe_ray);
+        for (const SurfacePoint& point : starts_of(light)) {
+            const Enclosure enclosure = voted_enclosure(point);
             if (std::ranges::find(enclosures, enclosure) != enclosures.end()) continue;
             enclosures.push_back(enclosure);
-            if (tried_.size() < kMostLightsTried) tried_.push_back({probe_ray.position, enclosure});
+            if (tried_.size() < kMostLightsTried) tried_.push_back({point.lifted, enclosure});
         }
     }
 }
@@ -116,22 +115,21 @@ std::optional<ComponentId> Enclosures::closed_component(const rays::Crossing& cr
     return is_closed ? std::optional(id) : std::nullopt;
 }
 
-std::vector<ProbeRay> Enclosures::probe_rays_of(const Light& light) const {
+std::vector<SurfacePoint> Enclosures::starts_of(const Light& light) const {
     if (const auto origin = lights::point_origin(light)) {
         if (!origin->axis) return {{origin->position, kDirections[0]}};
-        return {probe_ray_off(origin->position, *origin->axis, caster_.lift().largest_size_m(), caster_)};
+        return {lifted_point(origin->position, *origin->axis, caster_.lift().largest_size_m(), caster_)};
     }
     const auto surface = lights::emitting_object(light);
     if (!surface) return {};
-    std::vector<ProbeRay> rays = std::visit(ProbeRaysOfShape{components()[index_of(*surface)], caster_},
-                                            scene_.object(*surface).shape);
+    std::vector<SurfacePoint> starts =
+        std::visit(StartsOnShape{components()[index_of(*surface)], caster_}, scene_.object(*surface).shape);
     // An opening may reach through the walls around its luminaire.
-    if (std::holds_alternative<LuminousOpening>(light.source)) {
-        const Luminaire& luminaire = *lights::luminaire_of(light);
-        rays.push_back(probe_ray_off(luminaire.position, rays.front().direction,
-                                     caster_.lift().largest_size_m(), caster_));
+    if (const Luminaire* luminaire = lights::luminaire_of(light)) {
+        starts.push_back(lifted_point(luminaire->position, starts.front().normal,
+                                      caster_.lift().largest_size_m(), caster_));
     }
-    return rays;
+    return starts;
 }
 
 Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const Vec3& direction) const {
@@ -151,12 +149,12 @@ Enclosure Enclosures::crossed_an_odd_number_of_times(const Vec3& origin, const V
     return odd;
 }
 
-Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
+Enclosure Enclosures::voted_enclosure(const SurfacePoint& point) const {
     std::array<Enclosure, 3> votes;
     for (std::size_t i = 0; i < votes.size(); ++i) {
         const Vec3& d = kDirections[i];
-        const bool is_outwards = dot(d, probe_ray.direction) > 0;
-        votes[i] = crossed_an_odd_number_of_times(probe_ray.position, is_outwards ? d : -d);
+        const bool is_outwards = dot(d, point.normal) > 0;
+        votes[i] = crossed_an_odd_number_of_times(point.lifted, is_outwards ? d : -d);
     }
     Enclosure enclosure;
     const auto add_common = [&](const Enclosure& a, const Enclosure& b) {
@@ -170,11 +168,11 @@ Enclosure Enclosures::voted_enclosure(const ProbeRay& probe_ray) const {
     return enclosure;
 }
 
-Enclosure Enclosures::enclosure_of(const ProbeRay& probe_ray) const {
-    const auto seen = std::find_if(tried_.begin(), tried_.end(), [&](const LightLocation& light) {
-        return !caster_.occluded(probe_ray.position, light.position);
+Enclosure Enclosures::enclosure_of(const SurfacePoint& point) const {
+    const auto seen = std::find_if(tried_.begin(), tried_.end(), [&](const TriedLight& light) {
+        return !caster_.occluded(point.lifted, light.position);
     });
-    return seen != tried_.end() ? seen->enclosure : voted_enclosure(probe_ray);
+    return seen != tried_.end() ? seen->enclosure : voted_enclosure(point);
 }
 
 bool Enclosures::is_lit(const Enclosure& enclosure) const {

@@ -107,20 +107,21 @@ std::optional<Facing> faced_by(const std::vector<MeasuringPoint>& points, const 
 
 /// The surface that most points lie on, where lamps shine on its other side and not on that of the points.
 std::optional<ObjectId> lit_from_behind(const std::vector<MeasuringPoint>& points,
-                                        const std::vector<Location>& lamps, const rays::RayCaster& caster) {
-    const auto is_lit = [&](const Location& place) {
-        return std::ranges::any_of(lamps, [&](const Location& lamp) {
+                                        const std::vector<SurfacePoint>& lamps,
+                                        const rays::RayCaster& caster) {
+    const auto is_lit = [&](const SurfacePoint& place) {
+        return std::ranges::any_of(lamps, [&](const SurfacePoint& lamp) {
             // A lamp shines into the whole half space, of which its particle took one direction.
-            return dot(lamp.position - place.position, place.normal) > 0 &&
-                   caster.transmittance({place.position, lamp.position}).max() > 0;
+            return dot(lamp.lifted - place.lifted, place.normal) > 0 &&
+                   caster.transmittance({place.lifted, lamp.lifted}).max() > 0;
         });
     };
     std::size_t turned = 0;
     std::optional<ObjectId> object;
     for (const MeasuringPoint& point : points) {
         const auto surface = place_of(point, caster).surface;
-        if (!surface || is_lit({surface->lifted, surface->normal}) ||
-            !is_lit({surface->lifted_behind(), -surface->normal}))
+        if (!surface || is_lit(*surface) ||
+            !is_lit({surface->position, -surface->normal, surface->lifted_behind()}))
             continue;
         ++turned;
         object = surface->object;
@@ -130,8 +131,8 @@ std::optional<ObjectId> lit_from_behind(const std::vector<MeasuringPoint>& point
 }
 
 /// Points on lamps from which particles start.
-std::vector<Location> lamp_points(const Scene& scene, const rays::RayCaster& caster) {
-    std::vector<Location> points;
+std::vector<SurfacePoint> lamp_points(const Scene& scene, const rays::RayCaster& caster) {
+    std::vector<SurfacePoint> points;
     const std::size_t count = std::min<std::size_t>(kLightRays, 4 * scene.lights.size());
     for (std::size_t i = 0; i < count; ++i) {
         math::SampleStream stream(kCheckKey.derived(CheckStream::light_origins), i);
@@ -143,7 +144,7 @@ std::vector<Location> lamp_points(const Scene& scene, const rays::RayCaster& cas
     return points;
 }
 
-std::optional<std::string> fault_of(const Sensor& sensor, const std::vector<Location>& lamps,
+std::optional<std::string> fault_of(const Sensor& sensor, const std::vector<SurfacePoint>& lamps,
                                     const Scene& scene, const rays::RayCaster& caster) {
     const std::vector<MeasuringPoint> points = points_of(sensor);
     if (points.empty()) return std::nullopt;
@@ -212,7 +213,7 @@ std::vector<std::string> facing_warnings(const Scene& scene, const rays::RayCast
     std::vector<std::string> warnings;
     for (const FacedLamps& lamps : faced_lamps(scene, caster, explained))
         warnings.push_back(text_of_lamps(lamps, scene));
-    const std::vector<Location> lamps = lamp_points(scene, caster);
+    const std::vector<SurfacePoint> lamps = lamp_points(scene, caster);
     for (std::size_t i = 0; i < std::min(sensors.size(), kMostSensorsTested); ++i) {
         if (explained.sensors[i]) continue;
         auto fault = fault_of(sensors[i], lamps, scene, caster);

@@ -21,20 +21,16 @@ class HiddenPoints {
         : scene_(scene), caster_(caster), enclosures_(enclosures) {}
 
     bool is_covered(const MeasuringPoint& point, double covering_m) const {
-        const ProbeRay probe = probe_of(point);
-        const auto above = caster_.closest(probe.position, probe.direction);
+        const auto above = caster_.closest(place_of(point, caster_).lifted, point.normal);
         return above && above->distance_m < covering_m && !transmits(scene_.material(above->material));
     }
 
     bool is_dark(const MeasuringPoint& point) const {
-        return !scene_.lights.empty() && !enclosures_.is_lit(enclosures_.enclosure_of(probe_of(point)));
+        return !scene_.lights.empty() &&
+               !enclosures_.is_lit(enclosures_.enclosure_of(place_of(point, caster_)));
     }
 
   private:
-    ProbeRay probe_of(const MeasuringPoint& point) const {
-        return {place_of(point, caster_).lifted, point.normal};
-    }
-
     const Scene& scene_;
     const rays::RayCaster& caster_;
     const Enclosures& enclosures_;

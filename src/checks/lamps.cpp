@@ -17,13 +17,6 @@ namespace {
 
 // The same lamp twice.
 
-std::optional<Vec3> middle_of(const Light& light, const Scene& scene) {
-    if (const auto* luminaire = lights::luminaire_of(light)) return luminaire->position;
-    if (const auto origin = lights::point_origin(light)) return origin->position;
-    const auto surface = lights::uniform_emission(light);
-    return surface ? std::optional(bounds_of(scene.object(surface->object).shape).middle()) : std::nullopt;
-}
-
 /// The middle in whole millimetres.
 std::array<long long, 3> millimetres(const Vec3& middle) {
     return {std::llround(1e3 * middle.x), std::llround(1e3 * middle.y), std::llround(1e3 * middle.z)};
@@ -37,18 +30,13 @@ bool have_one_colour(const Rgb& a, const Rgb& b) {
     return std::max({std::abs(difference[0]), std::abs(difference[1]), std::abs(difference[2])}) < same;
 }
 
-/// Whether two lamps give the same light; those with surfaces, if these are nowhere farther apart than
-/// `tolerance_m`.
+/// Whether two lamps give the same light; those with surfaces other than openings of luminaires, if these are
+/// nowhere farther apart than `tolerance_m`.
 bool have_one_distribution(const Light& a, const Light& b, const Scene& scene, double tolerance_m) {
-    constexpr double same_cosine = 1 - 1e-6;
-    if (a.source.index() != b.source.index()) return false;
-    const Luminaire *first = lights::luminaire_of(a), *second = lights::luminaire_of(b);
-    if (first && (first->solid != second->solid || dot(first->nadir, second->nadir) < same_cosine ||
-                  dot(first->c0, second->c0) < same_cosine))
-        return false;
-    const auto surface = lights::uniform_emission(a), other = lights::uniform_emission(b);
-    if (surface &&
-        !coincide(scene.object(surface->object).shape, scene.object(other->object).shape, tolerance_m))
+    if (!lights::shine_alike(a, b)) return false;
+    const auto surface = lights::emitting_object(a), other = lights::emitting_object(b);
+    if (surface && !lights::luminaire_of(a) &&
+        !coincide(scene.object(*surface).shape, scene.object(*other).shape, tolerance_m))
         return false;
     return have_one_colour(flux_lm(scene, a), flux_lm(scene, b));
 }
@@ -80,7 +68,7 @@ std::vector<Alike> alike_among(const std::vector<const Light*>& in_one_place, co
 std::vector<std::string> duplicate_warnings(const Scene& scene, const rays::RayCaster& caster) {
     std::map<std::array<long long, 3>, std::vector<const Light*>> by_place;
     for (const Light& light : scene.lights) {
-        if (const auto middle = middle_of(light, scene)) by_place[millimetres(*middle)].push_back(&light);
+        if (const auto middle = place_of(scene, light)) by_place[millimetres(*middle)].push_back(&light);
     }
     std::string first;
     std::size_t more = 0;
@@ -124,7 +112,7 @@ std::vector<std::string> surrounded(std::span<const Sensor> sensors, ObjectId ob
                                     const rays::RayCaster& caster) {
     std::vector<std::string> names;
     for (const Sensor& sensor : sensors.first(std::min(sensors.size(), kMostSensors))) {
-        if (surrounds(object, first_ray_of(sensor, caster).position, caster)) names.push_back(sensor.name);
+        if (surrounds(object, first_point_of(sensor, caster).lifted, caster)) names.push_back(sensor.name);
     }
     return names;
 }

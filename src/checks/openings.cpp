@@ -9,9 +9,9 @@ std::vector<std::string> opening_warnings(const Scene& scene) {
     std::vector<std::string> names;
     double first_m = 0;
     for (const Light& light : scene.lights) {
-        const auto* opening = std::get_if<LuminousOpening>(&light.source);
+        const auto opening = lights::opening_of(light);
         if (!opening) continue;
-        const double size_m = 2 * bounds_of(scene.object(opening->object).shape).half_extent();
+        const double size_m = 2 * bounds_of(scene.object(*opening).shape).half_extent();
         if (size_m >= lights::kSmallestOpening_m && size_m <= lights::kLargestOpening_m) continue;
         if (names.empty()) first_m = size_m;
         names.push_back(light.name);

@@ -52,7 +52,7 @@ class OverlapLight {
             const auto surface = lights::emitting_object(light);
             if (!surface) continue;
             is_lamp_[index_of(*surface)] = true;
-            is_opening_[index_of(*surface)] = lights::luminaire_of(light) != nullptr;
+            is_opening_[index_of(*surface)] = lights::opening_of(light).has_value();
         }
     }
 
@@ -88,14 +88,14 @@ class OverlapLight {
         });
     }
 
-    bool is_lit(const Location& side) const {
-        return std::ranges::any_of(lit_, [&](const Location& lit) { return sees(side, lit, caster_); }) &&
+    bool is_lit(const SurfacePoint& side) const {
+        return std::ranges::any_of(lit_, [&](const SurfacePoint& lit) { return sees(side, lit, caster_); }) &&
                is_looked_at(side);
     }
 
     /// Whether another surface or a sensor is on that side. Below the ground that a house stands on there is
     /// nothing, though light from infinity gets there.
-    bool is_looked_at(const Location& side) const {
+    bool is_looked_at(const SurfacePoint& side) const {
         constexpr std::uint64_t rays = 16;
         constexpr std::size_t most_sensors = 64;
         if (sensors_.empty()) return true;
@@ -104,19 +104,19 @@ class OverlapLight {
             math::SampleStream stream(math::RandomKey{}, i);
             const auto [u1, u2] = stream.next_two();
             const Vec3 direction = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
-            if (caster_.closest(side.position, direction)) return true;
+            if (caster_.closest(side.lifted, direction)) return true;
         }
         const auto some = sensors_.first(std::min(sensors_.size(), most_sensors));
         return std::ranges::any_of(some, [&](const Sensor& sensor) {
             const Vec3 at = sensor.camera() ? sensor.camera()->position : position_of(sensor.measurand(0));
-            return dot(at - side.position, side.normal) > 0 && !caster_.occluded(side.position, at);
+            return dot(at - side.lifted, side.normal) > 0 && !caster_.occluded(side.lifted, at);
         });
     }
 
     const Scene& scene_;
     const rays::RayCaster& caster_;
     std::span<const Sensor> sensors_;
-    std::vector<Location> lit_;
+    std::vector<SurfacePoint> lit_;
     std::vector<bool> is_lamp_, is_opening_;  ///< by object
 };
 

@@ -51,18 +51,19 @@ std::string whereabouts(const Enclosure& dark, const EnclosureList& lit, const S
     return "in an enclosure without a light";
 }
 
-ProbeRay ray_of(const Measurand& measurand, const rays::RayCaster& caster) {
+SurfacePoint point_of(const Measurand& measurand, const rays::RayCaster& caster) {
     const MeasuringPoint point = viewpoint_of(measurand);
     const auto* body = std::get_if<BodyPoint>(&measurand);
-    return {body ? place_of(*body, caster).lifted : place_of(point, caster).lifted, point.normal};
+    if (!body) return place_of(point, caster);
+    return {point.position, point.normal, place_of(*body, caster).lifted};
 }
 
-/// Rays along which the light of the readings arrives.
-std::vector<ProbeRay> rays_of(const Sensor& sensor, const rays::RayCaster& caster) {
-    if (sensor.camera()) return {first_ray_of(sensor, caster)};
-    std::vector<ProbeRay> rays;
-    for (const Measurand& measurand : sensor.measurands()) rays.push_back(ray_of(measurand, caster));
-    return rays;
+/// Where the light of the readings arrives.
+std::vector<SurfacePoint> points_of(const Sensor& sensor, const rays::RayCaster& caster) {
+    if (sensor.camera()) return {first_point_of(sensor, caster)};
+    std::vector<SurfacePoint> points;
+    for (const Measurand& measurand : sensor.measurands()) points.push_back(point_of(measurand, caster));
+    return points;
 }
 
 /// Bodies are meant to stand free; one on a surface is probably a mistake.
@@ -157,14 +158,14 @@ class PlacementCheck {
         for (const EnclosureList& of_light : enclosures.of_lights())
             lit_.insert(lit_.end(), of_light.begin(), of_light.end());
         for (const Sensor& sensor : sensors) {
-            const std::vector<ProbeRay> rays = rays_of(sensor, caster);
+            const std::vector<SurfacePoint> all = points_of(sensor, caster);
             auto& enclosed = enclosed_.emplace_back();
-            for (const ProbeRay& ray : rays) {
-                EnclosedPoints& points = enclosed[enclosures.enclosure_of(ray)];
-                if (points.count++ == 0) points.first = ray.position;
+            for (const SurfacePoint& point : all) {
+                EnclosedPoints& points = enclosed[enclosures.enclosure_of(point)];
+                if (points.count++ == 0) points.first = point.lifted;
             }
             for (const auto& [enclosure, points] : enclosed) of_sensors_.push_back(enclosure);
-            first_.push_back(rays.front().position);
+            first_.push_back(all.front().lifted);
         }
     }
 
@@ -218,12 +219,12 @@ class PlacementCheck {
         const auto origin = lights::point_origin(light);
         const bool has_front = lights::emitting_object(light) || (origin && origin->axis);
         if (!has_front || is_measured(i)) return false;
-        const ProbeRay front = enclosures_.probe_rays_of(light).front();
+        const SurfacePoint front = enclosures_.starts_of(light).front();
         // Behind the surface, even if the lamp was put in front of it (scene/overlaps.h).
         constexpr double offsets = 6;
-        const double depth_m = offsets * caster_.offset_m(front.position, caster_.lift().largest_size_m());
+        const double depth_m = offsets * caster_.offset_m(front.lifted, caster_.lift().largest_size_m());
         const Enclosure behind =
-            enclosures_.enclosure_of({front.position - depth_m * front.direction, -front.direction});
+            enclosures_.enclosure_of({front.lifted - depth_m * front.normal, -front.normal});
         if (!contains(of_sensors_, behind)) return false;
         const auto component = only_around(behind, {enclosures_.of_lights()[i].front()});
         if (!component) return false;
@@ -258,8 +259,8 @@ class PlacementCheck {
     bool is_seen(std::size_t light) {
         const auto sees = [&](const Vec3& point) {
             const auto is_visible = [&](const Vec3& from) { return !caster_.occluded(point, from); };
-            return std::ranges::any_of(enclosures_.probe_rays_of(scene_.lights[light]), is_visible,
-                                       &ProbeRay::position) ||
+            return std::ranges::any_of(enclosures_.starts_of(scene_.lights[light]), is_visible,
+                                       &SurfacePoint::lifted) ||
                    std::ranges::any_of(points_of_lamps()[light], is_visible);
         };
         constexpr std::size_t most_sensors = 64;
@@ -305,11 +306,10 @@ class PlacementCheck {
 
 }  // namespace
 
-ProbeRay first_ray_of(const Sensor& sensor, const rays::RayCaster& caster) {
+SurfacePoint first_point_of(const Sensor& sensor, const rays::RayCaster& caster) {
     const Camera* camera = sensor.camera();
-    if (!camera) return ray_of(sensor.measurand(0), caster);
-    const MeasuringPoint viewpoint{camera->position, sensors::CameraView(*camera).forward()};
-    return {place_of(viewpoint, caster).lifted, viewpoint.normal};
+    if (!camera) return point_of(sensor.measurand(0), caster);
+    return place_of(MeasuringPoint{camera->position, sensors::CameraView(*camera).forward()}, caster);
 }
 
 std::vector<std::string> placement_warnings(const Scene& scene, const rays::RayCaster& caster,

@@ -11,6 +11,7 @@
 #include "checks/walks.h"
 #include "math/sampling.h"
 #include "sensors/place.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::checks {
 namespace {
@@ -35,7 +36,7 @@ struct Surroundings {
 
 /// The start of a walk against the light, and whether light that arrives there is measured.
 struct WalkStart {
-    Location at;
+    SurfacePoint at;
     Vec3 direction;
     bool receives_light = false;
 };
@@ -46,9 +47,9 @@ std::optional<WalkStart> start_of(const Measurand& measurand, const rays::RayCas
     const MeasuringPoint point = viewpoint_of(measurand);
     if (const auto* body = std::get_if<BodyPoint>(&measurand)) {
         const Vec3 direction = math::sample_sphere(u1, u2).direction;
-        return WalkStart{{place_of(*body, caster).lifted, direction}, direction, true};
+        return WalkStart{{body->position, direction, place_of(*body, caster).lifted}, direction, true};
     }
-    const Location at{place_of(point, caster).lifted, point.normal};
+    const SurfacePoint at = place_of(point, caster);
     if (std::holds_alternative<LineOfSight>(measurand)) return WalkStart{at, point.normal};
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -73,9 +74,10 @@ Surroundings surroundings_of(const Sensor& sensor, std::size_t starts, const Sce
         const auto start = camera ? start_of(*camera, stream)
                                   : start_of(sensor.measurand(i * sensor.size() / starts), caster, stream);
         if (!start) continue;
-        if (i == 0) around.first = start->at.position;
-        if (start->receives_light) around.trail.locations.push_back(start->at);
-        follow_walk(scene, caster, start->at, start->direction, kReachReflections, stream, around.trail);
+        if (i == 0) around.first = start->at.lifted;
+        if (start->receives_light) around.trail.points.push_back(start->at);
+        follow_walk(scene, caster, {start->at.lifted, start->direction}, kReachReflections, stream,
+                    around.trail);
     }
     return around;
 }
@@ -89,7 +91,7 @@ struct Shining {
 
     Shining(const Light& light, const Scene& scene, const rays::RayCaster& caster)
         : emitter(lights::make_emitter(light, scene::LightSurroundings(scene), caster.lift())),
-          is_outside(location_of(light) == stilb::LightLocation::infinity),
+          is_outside(location_of(light) == LightLocation::infinity),
           trail(scene) {
         if (const auto surface = lights::emitting_object(light)) object = *surface;
     }
@@ -98,7 +100,7 @@ struct Shining {
         return std::visit([&](const auto& own) { return own.emit(stream); }, emitter);
     }
 
-    std::optional<lights::IncidentLight> sample_incident(const lights::ReceivingPoint& at,
+    std::optional<lights::IncidentLight> sample_incident(const SurfacePoint& at,
                                                          const std::array<double, 2>& u) const {
         return std::visit([&](const auto& own) { return own.sample_incident(at, u); }, emitter);
     }
@@ -121,8 +123,7 @@ std::vector<std::string> lost_light_warnings(const Scene& scene, const rays::Ray
         for (std::uint64_t i = 0; i < particles && meets_nothing(shining.trail); ++i) {
             math::SampleStream stream(kCheckKey.derived(CheckStream::from_lights), i);
             const lights::Emission particle = shining.emit(stream);
-            follow_walk(scene, caster, {particle.origin, particle.direction}, particle.direction, 0, stream,
-                        shining.trail);
+            follow_walk(scene, caster, {particle.origin, particle.direction}, 0, stream, shining.trail);
         }
         if (meets_nothing(shining.trail)) lost.push_back(light.name);
     }
@@ -187,8 +188,7 @@ class ReachCheck {
 
   private:
     void add_to_all(const Trail& trail) {
-        all_places_.locations.insert(all_places_.locations.end(), trail.locations.begin(),
-                                     trail.locations.end());
+        all_places_.points.insert(all_places_.points.end(), trail.points.begin(), trail.points.end());
         all_places_.leaves_scene = all_places_.leaves_scene || trail.leaves_scene;
         for (std::size_t i = 0; i < trail.is_object_met.size(); ++i) {
             if (trail.is_object_met[i]) all_places_.is_object_met[i] = true;
@@ -210,12 +210,12 @@ class ReachCheck {
         for (std::uint64_t i = 0; i < kMostParticles; ++i) {
             math::SampleStream stream(kCheckKey.derived(CheckStream::from_lights), i);
             const lights::Emission particle = shining.emit(stream);
-            const std::size_t known = shining.trail.locations.size();
-            if (is_lit_directly(all_places_.locations, shining)) return true;
-            follow_walk(scene_, caster_, {particle.origin, particle.direction}, particle.direction,
-                        kReachReflections, stream, shining.trail);
-            for (std::size_t j = known; j < shining.trail.locations.size(); ++j) {
-                if (is_connected(shining.trail.locations[j], all_places_.locations)) return true;
+            const std::size_t known = shining.trail.points.size();
+            if (is_lit_directly(all_places_.points, shining)) return true;
+            follow_walk(scene_, caster_, {particle.origin, particle.direction}, kReachReflections, stream,
+                        shining.trail);
+            for (std::size_t j = known; j < shining.trail.points.size(); ++j) {
+                if (is_connected(shining.trail.points[j], all_places_.points)) return true;
             }
             if (connections_ > kMostConnections) return std::nullopt;
         }
@@ -223,21 +223,19 @@ class ReachCheck {
     }
 
     /// Whether a sample of the light itself, not of a reflection, gets to one of some places.
-    bool is_lit_directly(const std::vector<Location>& places, const Shining& shining) {
+    bool is_lit_directly(const std::vector<SurfacePoint>& places, const Shining& shining) {
         for (std::size_t k = 0; k < std::min(kConnections, places.size()); ++k) {
             math::SampleStream stream(kCheckKey.derived(CheckStream::pairs), connections_++);
-            const Location& place =
+            const SurfacePoint& place =
                 places[static_cast<std::size_t>(stream.next() * static_cast<double>(places.size()))];
             const auto [u1, u2] = stream.next_two();
-            const auto light = shining.sample_incident({place.position, place.normal}, {u1, u2});
-            if (light && light->normal_illuminance_lx.max() > 0 && dot(light->direction, place.normal) > 0 &&
-                caster_.transmittance({place.position, light->source_point}).max() > 0)
-                return true;
+            const auto sample = transport::direct_sample(shining.sample_incident(place, {u1, u2}), place);
+            if (sample && caster_.transmittance(sample->segment).max() > 0) return true;
         }
         return false;
     }
 
-    bool is_connected(const Location& place, const std::vector<Location>& others) {
+    bool is_connected(const SurfacePoint& place, const std::vector<SurfacePoint>& others) {
         for (std::size_t k = 0; k < std::min(kConnections, others.size()); ++k) {
             math::SampleStream stream(kCheckKey.derived(CheckStream::pairs), connections_++);
             const auto other = static_cast<std::size_t>(stream.next() * static_cast<double>(others.size()));
@@ -256,12 +254,12 @@ class ReachCheck {
     void add_dark_sensors(std::vector<std::string>& warnings) {
         std::vector<std::string> dark;
         connections_ = 0;
-        std::vector<Location> lit;  // found for the first sensor that meets no light: it takes time
+        std::vector<SurfacePoint> lit;  // found for the first sensor that meets no light: it takes time
         for (const Surroundings& around : around_) {
             if (meets_light(around.trail)) continue;
             if (lit.empty()) lit = lit_places(scene_, caster_);
-            if (std::ranges::any_of(around.trail.locations,
-                                    [&](const Location& place) { return is_connected(place, lit); }))
+            if (std::ranges::any_of(around.trail.points,
+                                    [&](const SurfacePoint& place) { return is_connected(place, lit); }))
                 continue;
             if (connections_ > kMostConnections) break;
             dark.push_back(around.name);

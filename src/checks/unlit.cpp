@@ -15,8 +15,8 @@ namespace {
 constexpr std::uint64_t kParticles = 4096, kParticlesAtOnce = 64;
 constexpr int kReflections = 3;
 constexpr std::uint64_t kPointsOnObject = 64;
-/// Lit positions that are tested for each point on an object.
-constexpr std::size_t kLocationsTried = 64;
+/// Lit points that are tested for each point on an object.
+constexpr std::size_t kPointsTried = 64;
 
 /// Tests of pairs of points for all objects: a few tenths of a second at most. Objects that are left then are
 /// not named.
@@ -34,45 +34,44 @@ Trail trace_particles(const Scene& scene, const rays::RayCaster& caster) {
         if (i % kParticlesAtOnce == 0 && std::ranges::all_of(trail.is_object_met, std::identity{})) break;
         math::SampleStream stream(kCheckKey.derived(CheckStream::unlit_particles), i);
         const transport::EmittedParticle particle = lights.sample_emission(stream);
-        const Location start{particle.origin, particle.direction};
-        trail.locations.push_back(start);
-        follow_walk(scene, caster, start, particle.direction, kReflections, stream, trail);
+        trail.points.push_back({particle.origin, particle.direction});
+        follow_walk(scene, caster, {particle.origin, particle.direction}, kReflections, stream, trail);
     }
     return trail;
 }
 
 /// On a mesh or an instance.
 template <typename Triangles>
-Location location_on(const Triangles& shape, std::size_t count, math::SampleStream& stream) {
+SurfacePoint point_on(const Triangles& shape, std::size_t count, math::SampleStream& stream) {
     const auto [a, b, c] =
         shape.corners_of(static_cast<std::size_t>(stream.next() * static_cast<double>(count)));
     const auto [u1, u2] = stream.next_two();
     const math::Barycentric w = math::sample_triangle(u1, u2);
     return {w.b0 * a + w.b1 * b + w.b2 * c, normalized(cross(b - a, c - a))};
 }
-Location location_on(const Mesh& mesh, math::SampleStream& stream) {
-    return location_on(mesh, mesh.triangles.size(), stream);
+SurfacePoint point_on(const Mesh& mesh, math::SampleStream& stream) {
+    return point_on(mesh, mesh.triangles.size(), stream);
 }
-Location location_on(const Instance& instance, math::SampleStream& stream) {
-    return location_on(instance, instance.mesh->triangles.size(), stream);
+SurfacePoint point_on(const Instance& instance, math::SampleStream& stream) {
+    return point_on(instance, instance.mesh->triangles.size(), stream);
 }
-Location location_on(const Rectangle& rectangle, math::SampleStream& stream) {
-    return location_on(triangulated(rectangle), stream);
+SurfacePoint point_on(const Rectangle& rectangle, math::SampleStream& stream) {
+    return point_on(triangulated(rectangle), stream);
 }
-Location location_on(const Box& box, math::SampleStream& stream) {
-    return location_on(triangulated(box), stream);
+SurfacePoint point_on(const Box& box, math::SampleStream& stream) {
+    return point_on(triangulated(box), stream);
 }
-Location location_on(const Sphere& sphere, math::SampleStream& stream) {
+SurfacePoint point_on(const Sphere& sphere, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     const Vec3 normal = math::sample_sphere(u1, u2).direction;
     return {sphere.center + sphere.radius * normal, normal};
 }
-Location location_on(const Harmonics& harmonics, math::SampleStream& stream) {
+SurfacePoint point_on(const Harmonics& harmonics, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     const Vec3 direction = math::sample_sphere(u1, u2).direction;
     return {harmonics.point_towards(direction), harmonics.normal_towards(direction)};
 }
-Location location_on(const Disk& disk, math::SampleStream& stream) {
+SurfacePoint point_on(const Disk& disk, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     const math::DiskPoint p = math::sample_unit_disk(u1, u2);
     const Frame frame = Frame::around(disk.normal);
@@ -80,19 +79,19 @@ Location location_on(const Disk& disk, math::SampleStream& stream) {
 }
 
 /// `tests` counts the pairs of points that were tested.
-bool is_seen(const Object& object, const std::vector<Location>& lit, const rays::RayCaster& caster,
+bool is_seen(const Object& object, const std::vector<SurfacePoint>& lit, const rays::RayCaster& caster,
              std::size_t& tests) {
-    const std::size_t stride = std::max<std::size_t>(1, lit.size() / kLocationsTried);
+    const std::size_t stride = std::max<std::size_t>(1, lit.size() / kPointsTried);
     for (std::uint64_t i = 0; i < kPointsOnObject; ++i) {
         math::SampleStream stream(kCheckKey.derived(CheckStream::unlit_connections), i);
-        const Location location =
-            std::visit([&](const auto& s) { return location_on(s, stream); }, object.shape);
-        const double offset = caster.offset_m(location.position, caster.lift().largest_size_m());
-        for (const Vec3& normal : {location.normal, -location.normal}) {
-            const Location lifted{location.position + offset * normal, normal};
+        const SurfacePoint point =
+            std::visit([&](const auto& s) { return point_on(s, stream); }, object.shape);
+        const double offset = caster.offset_m(point.position, caster.lift().largest_size_m());
+        for (const Vec3& normal : {point.normal, -point.normal}) {
+            const SurfacePoint side{point.position, normal, point.position + offset * normal};
             for (std::size_t j = i % stride; j < lit.size(); j += stride) {
                 ++tests;
-                if (sees(lifted, lit[j], caster)) return true;
+                if (sees(side, lit[j], caster)) return true;
             }
         }
     }
@@ -107,7 +106,7 @@ std::vector<ObjectId> unlit_objects(const Scene& scene, const rays::RayCaster& c
     std::vector<ObjectId> unlit;
     std::size_t tests = 0;
     for (std::uint32_t i = 0; i < scene.objects.size() && tests < kMostTests; ++i) {
-        if (trail.is_object_met[i] || is_seen(scene.objects[i], trail.locations, caster, tests)) continue;
+        if (trail.is_object_met[i] || is_seen(scene.objects[i], trail.points, caster, tests)) continue;
         unlit.push_back(ObjectId{i});
     }
     return unlit;

@@ -19,14 +19,14 @@ AreaEmitter::AreaEmitter(const AreaLight& light, const Surroundings& surrounding
       surface_(surroundings.shape(light.object), lift) {}
 
 Emission AreaEmitter::emit(math::SampleStream& stream) const {
-    const auto [lifted, normal, weight] = surface_.sample_by_area(stream.next_two());
+    const EmitterPoint point = surface_.sample_by_area(stream.next_two());
     const std::array<double, 2> u = stream.next_two();
     const Vec3 direction =
-        Frame::around(normal).to_world(math::sample_cosine_hemisphere(u[0], u[1]).direction);
-    return {lifted, direction, Rgb::grey(weight)};
+        Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u[0], u[1]).direction);
+    return {point.lifted, direction, Rgb::grey(point.weight)};
 }
 
-std::optional<IncidentLight> AreaEmitter::sample_incident(const ReceivingPoint& at,
+std::optional<IncidentLight> AreaEmitter::sample_incident(const SurfacePoint& at,
                                                           const std::array<double, 2>& u) const {
     const auto seen = surface_.sample_seen(at.position, u);
     if (!seen) return std::nullopt;
@@ -34,9 +34,10 @@ std::optional<IncidentLight> AreaEmitter::sample_incident(const ReceivingPoint& 
                          seen->rough_pdf_per_sr};
 }
 
-double AreaEmitter::rough_illuminance_lx(const Vec3& from, const Vec3&) const {
+double AreaEmitter::rough_illuminance_lx(const SurfacePoint& at) const {
     // Never zero: part of the emitter may be above the horizon wherever its middle is.
-    return flux_lm_ / (squared_length(surface_.middle() - from) + surface_.radius_m() * surface_.radius_m());
+    return flux_lm_ /
+           (squared_length(surface_.middle() - at.position) + surface_.radius_m() * surface_.radius_m());
 }
 
 }  // namespace stilb::lights

@@ -17,6 +17,7 @@ struct AreaLight {
     static constexpr LightLocation kLocation = LightLocation::surface;
     using Emitter = AreaEmitter;
     void scale(const Rgb& by) { luminance_cd_m2 *= by; }
+    bool shines_like(const AreaLight&) const { return true; }
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     const Rgb& mean_luminance_cd_m2(const Surroundings&) const { return luminance_cd_m2; }
@@ -27,9 +28,9 @@ class AreaEmitter {
     AreaEmitter(const AreaLight& light, const Surroundings& surroundings, const Lift& lift);
 
     Emission emit(math::SampleStream& stream) const;
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(const SurfacePoint& at) const;
 
     const Rgb& luminance_cd_m2(const Vec3&) const { return luminance_cd_m2_; }
     double pdf_per_sr(std::uint32_t triangle, const Vec3& position, const Vec3& normal,

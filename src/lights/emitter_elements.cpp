@@ -32,24 +32,24 @@ Vec3 front_normal(const Disk& d) { return d.normal; }
 
 // Points of flat elements leave the normal out, because the element has it.
 EmitterPoint by_area(const Rectangle& r, const std::array<double, 2>& u) {
-    return {r.corner + u[0] * r.edge_u + u[1] * r.edge_v, {}};
+    return {{r.corner + u[0] * r.edge_u + u[1] * r.edge_v}};
 }
 EmitterPoint by_area(const Corners& t, const std::array<double, 2>& u) {
     const math::Barycentric b = math::sample_triangle(u[0], u[1]);
-    return {b.b0 * t[0] + b.b1 * t[1] + b.b2 * t[2], {}};
+    return {{b.b0 * t[0] + b.b1 * t[1] + b.b2 * t[2]}};
 }
 EmitterPoint by_area(const Disk& d, const std::array<double, 2>& u) {
     const Frame frame = Frame::around(d.normal);
     const math::DiskPoint p = math::sample_unit_disk(u[0], u[1]);
-    return {d.center + d.radius * (p.x * frame.u + p.y * frame.v), {}};
+    return {{d.center + d.radius * (p.x * frame.u + p.y * frame.v)}};
 }
 EmitterPoint by_area(const Sphere& s, const std::array<double, 2>& u) {
     const Vec3 normal = math::sample_sphere(u[0], u[1]).direction;
-    return {s.center + s.radius * normal, normal};
+    return {{s.center + s.radius * normal, normal}};
 }
 EmitterPoint by_area(const Harmonics& h, const std::array<double, 2>& u) {
     const geometry::HarmonicArea::Point point = h.area->sample(u);
-    return {h.to_world(point.position), h.axes.to_world(point.normal),
+    return {{h.to_world(point.position), h.axes.to_world(point.normal)},
             1 / (point.pdf_per_area * h.area->total())};
 }
 
@@ -116,8 +116,9 @@ EmitterPoint sample_by_area(const EmitterElement& element, const std::array<doub
 std::optional<EmitterSample> sample_seen(const EmitterElement& element, const Vec3& from,
                                          const std::array<double, 2>& u) {
     if (squared_length(element.middle - from) > element.squared_far_m2) {
-        const auto [position, normal, weight] = sample_by_area(element, u);
-        return EmitterSample{position, normal, area_pdf_per_sr(element, position - from, normal) / weight};
+        const EmitterPoint point = sample_by_area(element, u);
+        return EmitterSample{point.position, point.normal,
+                             area_pdf_per_sr(element, point.position - from, point.normal) / point.weight};
     }
     const auto sample = std::visit(SolidAngleSampler{from, u}, element.shape);
     if (!sample) return std::nullopt;

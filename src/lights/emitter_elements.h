@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "base/surface_point.h"
 #include "geometry/shape.h"
 
 namespace stilb::lights {
@@ -27,9 +28,8 @@ struct EmitterElement {
 /// element.
 std::vector<EmitterElement> emitter_elements(const Shape& shape);
 
-/// Samples a point about uniformly by area; with `weight`, exactly.
-struct EmitterPoint {
-    Vec3 position, normal;
+/// A point of an emitter, drawn about uniformly by area; with `weight`, exactly.
+struct EmitterPoint : SurfacePoint {
     double weight = 1;
 };
 EmitterPoint sample_by_area(const EmitterElement& element, const std::array<double, 2>& u);

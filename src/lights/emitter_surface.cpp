@@ -22,7 +22,7 @@ EmitterPoint sample_disk_of(const Sphere& sphere, const Vec3& leaving, const std
     const math::DiskPoint p = math::sample_unit_disk(u[0], u[1]);
     const double height = std::sqrt(std::max(0.0, 1 - p.x * p.x - p.y * p.y));
     const Vec3 normal = Frame::around(leaving).to_world({p.x, p.y, height});
-    return {sphere.center + sphere.radius * normal, normal};
+    return {{sphere.center + sphere.radius * normal, normal}};
 }
 
 }  // namespace
@@ -48,14 +48,15 @@ double EmitterSurface::projected_area_m2(const Vec3& leaving) const {
     return sum;
 }
 
-auto EmitterSurface::sample_by_area(const std::array<double, 2>& u) const -> Point {
+EmitterPoint EmitterSurface::sample_by_area(const std::array<double, 2>& u) const {
     const auto choice = by_area_.choose(u[0]);
     const EmitterElement& element = elements_[choice.index];
-    const auto [position, normal, weight] = lights::sample_by_area(element, {choice.remainder, u[1]});
-    return {lifted(element, position, normal, 0), normal, weight};
+    EmitterPoint point = lights::sample_by_area(element, {choice.remainder, u[1]});
+    point.lifted = lifted(element, point.position, point.normal, 0);
+    return point;
 }
 
-auto EmitterSurface::sample_projected(const Vec3& leaving, const std::array<double, 2>& u) const -> Point {
+EmitterPoint EmitterSurface::sample_projected(const Vec3& leaving, const std::array<double, 2>& u) const {
     double left = u[0] * projected_area_m2(leaving), share = 0;
     const EmitterElement* chosen = nullptr;
     for (const EmitterElement& element : elements_) {
@@ -67,9 +68,10 @@ auto EmitterSurface::sample_projected(const Vec3& leaving, const std::array<doub
         left -= own;
     }
     const auto* sphere = std::get_if<Sphere>(&chosen->shape);
-    const auto [position, normal, weight] = sphere ? sample_disk_of(*sphere, leaving, {share, u[1]})
-                                                   : lights::sample_by_area(*chosen, {share, u[1]});
-    return {lifted(*chosen, position, normal, 0), normal, weight};
+    EmitterPoint point = sphere ? sample_disk_of(*sphere, leaving, {share, u[1]})
+                                : lights::sample_by_area(*chosen, {share, u[1]});
+    point.lifted = lifted(*chosen, point.position, point.normal, 0);
+    return point;
 }
 
 math::DiscreteChoice EmitterSurface::choose(const Vec3& from, double u) const {

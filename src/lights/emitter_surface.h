@@ -20,14 +20,10 @@ class EmitterSurface {
     /// The area that the unit direction `leaving` sees, as if no part hid another [m2].
     double projected_area_m2(const Vec3& leaving) const;
 
-    struct Point {
-        Vec3 lifted, normal;
-        double weight = 1;  ///< of a point drawn about uniformly
-    };
     /// A point of the whole surface, by area.
-    Point sample_by_area(const std::array<double, 2>& u) const;
+    EmitterPoint sample_by_area(const std::array<double, 2>& u) const;
     /// A point of the part that `leaving` sees, by projected area; such a part must exist.
-    Point sample_projected(const Vec3& leaving, const std::array<double, 2>& u) const;
+    EmitterPoint sample_projected(const Vec3& leaving, const std::array<double, 2>& u) const;
 
     struct SeenPoint {
         Vec3 lifted;

@@ -227,7 +227,7 @@ IncidentLight EnvironmentEmitter::incident(const Vec3& from, const Vec3& directi
     return {from + reach_m * direction, direction, luminance * (1 / pdf_per_sr), pdf_per_sr};
 }
 
-std::optional<IncidentLight> EnvironmentEmitter::sample_incident(const ReceivingPoint& at,
+std::optional<IncidentLight> EnvironmentEmitter::sample_incident(const SurfacePoint& at,
                                                                  const std::array<double, 2>& u) const {
     if (light_.panorama) {
         const Panorama::Sample sample = light_.panorama->sample(u[0], u[1]);
@@ -235,17 +235,17 @@ std::optional<IncidentLight> EnvironmentEmitter::sample_incident(const Receiving
                         sample.pdf_per_sr);
     }
     const auto [local, pdf_per_sr] =
-        at.normal ? math::sample_cosine_hemisphere(u[0], u[1]) : math::sample_sphere(u[0], u[1]);
+        at.is_in_open() ? math::sample_sphere(u[0], u[1]) : math::sample_cosine_hemisphere(u[0], u[1]);
     if (!(pdf_per_sr > 0)) return std::nullopt;
-    const Vec3 direction = at.normal ? Frame::around(*at.normal).to_world(local) : local;
+    const Vec3 direction = at.is_in_open() ? local : Frame::around(at.normal).to_world(local);
     return incident(at.position, direction, light_.luminance_cd_m2, pdf_per_sr);
 }
 
-double EnvironmentEmitter::rough_illuminance_lx(const Vec3&, const Vec3& normal) const {
+double EnvironmentEmitter::rough_illuminance_lx(const SurfacePoint& at) const {
     // The squares add up to 1; exact where light comes from all sides alike.
     double sum = 0;
     for (std::size_t axis = 0; axis < 3; ++axis)
-        sum += normal[axis] * normal[axis] * illuminance_lx_[2 * axis + (normal[axis] < 0 ? 1 : 0)];
+        sum += at.normal[axis] * at.normal[axis] * illuminance_lx_[2 * axis + (at.normal[axis] < 0 ? 1 : 0)];
     return sum;
 }
 
@@ -254,9 +254,9 @@ Rgb EnvironmentEmitter::luminance_cd_m2(const Vec3& direction) const {
                            : light_.luminance_cd_m2;
 }
 
-double EnvironmentEmitter::pdf_per_sr(const Vec3& direction, const ReceivingPoint& at) const {
+double EnvironmentEmitter::pdf_per_sr(const Vec3& direction, const SurfacePoint& at) const {
     if (light_.panorama) return light_.panorama->pdf_per_sr(light_.axes.to_local(direction));
-    return at.normal ? math::cosine_hemisphere_pdf_per_sr(dot(direction, *at.normal)) : 1 / (4 * kPi);
+    return at.is_in_open() ? 1 / (4 * kPi) : math::cosine_hemisphere_pdf_per_sr(dot(direction, at.normal));
 }
 
 }  // namespace stilb::lights

@@ -21,6 +21,7 @@ struct EnvironmentLight {
     static constexpr LightLocation kLocation = LightLocation::infinity;
     using Emitter = EnvironmentEmitter;
     void scale(const Rgb& by);
+    bool shines_like(const EnvironmentLight& other) const { return panorama == other.panorama; }
     /// The flux that enters the scene's bounding box.
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
@@ -42,12 +43,12 @@ class EnvironmentEmitter {
 
     Emission emit(math::SampleStream& stream) const;
     /// Constant luminance: sampled by the cosine at the receiver.
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(const SurfacePoint& at) const;
 
     Rgb luminance_cd_m2(const Vec3& direction) const;
-    double pdf_per_sr(const Vec3& direction, const ReceivingPoint& at) const;
+    double pdf_per_sr(const Vec3& direction, const SurfacePoint& at) const;
 
   private:
     Emission emit_constant(math::SampleStream& stream) const;

@@ -1,5 +1,7 @@
 #include "lights/light.h"
 
+#include <type_traits>
+
 namespace stilb::lights {
 
 Emitter make_emitter(const Light& light, const Surroundings& surroundings, const Lift& lift) {
@@ -62,8 +64,26 @@ LightSource scaled(const LightSource& source, const Rgb& factor) {
 }
 
 const Luminaire* luminaire_of(const Light& light) {
-    if (const auto* opening = std::get_if<LuminousOpening>(&light.source)) return &opening->luminaire;
-    return std::get_if<Luminaire>(&light.source);
+    return std::visit(
+        []<LightKind L>(const L& source) -> const Luminaire* {
+            if constexpr (std::is_same_v<L, Luminaire>) return &source;
+            if constexpr (requires { source.luminaire; }) return &source.luminaire;
+            return nullptr;
+        },
+        light.source);
+}
+
+std::optional<ObjectId> opening_of(const Light& light) {
+    return luminaire_of(light) ? emitting_object(light) : std::nullopt;
+}
+
+bool shine_alike(const Light& a, const Light& b) {
+    return std::visit(
+        [&]<LightKind L>(const L& source) {
+            const auto* other = std::get_if<L>(&b.source);
+            return other != nullptr && source.shines_like(*other);
+        },
+        a.source);
 }
 
 std::optional<LightOrigin> point_origin(const Light& light) {

@@ -57,6 +57,11 @@ std::optional<UniformEmission> uniform_emission(const Light& light);
 LightSource scaled(const LightSource& source, const Rgb& factor);
 /// The luminaire of a file that a light is, with or without an opening; null for others.
 const Luminaire* luminaire_of(const Light& light);
+/// The luminous opening of such a luminaire; nothing for other lights.
+std::optional<ObjectId> opening_of(const Light& light);
+/// Whether two lights are of one kind and send their light into the same directions, whatever their flux,
+/// colour and place.
+bool shine_alike(const Light& a, const Light& b);
 /// The emitter of a point light; nothing for other lights.
 std::optional<LightOrigin> point_origin(const Light& light);
 

@@ -16,6 +16,7 @@
 #include "base/ids.h"
 #include "base/rays.h"
 #include "base/rgb.h"
+#include "base/surface_point.h"
 #include "base/vec.h"
 #include "geometry/shape.h"
 #include "lights/photometric_solid.h"
@@ -74,28 +75,22 @@ struct IncidentLight {
     std::uint32_t light = 0;  ///< of Scene::lights; set by what chooses among lights
 };
 
-/// A receiving point. Without a normal it receives light from all directions, else from above the surface.
-struct ReceivingPoint {
-    Vec3 position;
-    std::optional<Vec3> normal;
-};
-
 /// A number or text about a light, for `info`. Keys carry their units.
 struct LightDetail {
     std::string_view key;
     std::variant<double, std::string> value;
 };
 
-/// The emission point of a point light; the axis points into the half space that it illuminates, if it is
-/// one-sided.
+/// The emission point of a point light.
 struct LightOrigin {
     Vec3 position;
-    std::optional<Vec3> axis;
+    std::optional<Vec3> axis{};         ///< into the half space that it illuminates, if it is one-sided
+    std::optional<Rgb> intensity_cd{};  ///< if that is the same in all directions
 };
 
 /// The interface of every emitter.
 template <typename E>
-concept EmitterKind = requires(const E& emitter, math::SampleStream& stream, const ReceivingPoint& at,
+concept EmitterKind = requires(const E& emitter, math::SampleStream& stream, const SurfacePoint& at,
                                const Vec3& v, const std::array<double, 2>& u) {
     /// Samples a particle in proportion to the flux, or nearly so: see Emission::share.
     { emitter.emit(stream) } -> std::same_as<Emission>;
@@ -103,7 +98,7 @@ concept EmitterKind = requires(const E& emitter, math::SampleStream& stream, con
     { emitter.sample_incident(at, u) } -> std::same_as<std::optional<IncidentLight>>;
     /// The approximate unshadowed illuminance [lx] of a surface, for the choice among lights. 0 only where it
     /// is exactly 0.
-    { emitter.rough_illuminance_lx(v, v) } -> std::same_as<double>;
+    { emitter.rough_illuminance_lx(at) } -> std::same_as<double>;
 };
 
 /// The interface of point lights.
@@ -128,7 +123,7 @@ concept SurfaceEmitterKind = requires(const E& emitter, std::uint32_t triangle, 
 
 /// For light from infinity: the luminance from a unit direction, and the density of sample_incident() there.
 template <typename E>
-concept InfiniteEmitterKind = requires(const E& emitter, const ReceivingPoint& at, const Vec3& v) {
+concept InfiniteEmitterKind = requires(const E& emitter, const SurfacePoint& at, const Vec3& v) {
     { emitter.luminance_cd_m2(v) } -> std::same_as<Rgb>;
     { emitter.pdf_per_sr(v, at) } -> std::same_as<double>;
 };
@@ -146,6 +141,9 @@ concept LightKind = EmitterKind<typename L::Emitter> &&
 } && requires(L& light, const Rgb& factor) {
     /// Multiplies its emission, band by band.
     light.scale(factor);
+} && requires(const L& light) {
+    /// Whether both send their light into the same directions, whatever their flux, colour and place.
+    { light.shines_like(light) } -> std::same_as<bool>;
 } &&(L::kLocation != LightLocation::point || (PointEmitterKind<typename L::Emitter> &&
                                               requires(const L& light) {
                                                   { light.origin() } -> std::same_as<LightOrigin>;

@@ -28,15 +28,15 @@ Emission LuminaireEmitter::emit(math::SampleStream& stream) const {
     return {lifted_, normalized(local.x * light_.c0 + local.y * light_.c90 + local.z * light_.nadir)};
 }
 
-std::optional<IncidentLight> LuminaireEmitter::sample_incident(const ReceivingPoint& at,
+std::optional<IncidentLight> LuminaireEmitter::sample_incident(const SurfacePoint& at,
                                                                const std::array<double, 2>&) const {
     return incident_from_point(light_.position, lifted_, at.position, [&](const Vec3& direction) {
         return solid_->intensity_cd(light_.in_solid(-direction)) * light_.factor;
     });
 }
 
-double LuminaireEmitter::rough_illuminance_lx(const Vec3& from, const Vec3& normal) const {
-    return illuminance_by_point_lx(light_.position, from, normal, [&](const Vec3& direction) {
+double LuminaireEmitter::rough_illuminance_lx(const SurfacePoint& at) const {
+    return illuminance_by_point_lx(light_.position, at, [&](const Vec3& direction) {
         const double bound_cd = solid_->intensity_bound_cd(light_.in_solid(-direction));
         return bound_cd * light_.factor.luminance();
     });

@@ -24,6 +24,11 @@ struct Luminaire {
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { factor *= by; }
     LightOrigin origin() const { return {position, nadir}; }
+    bool shines_like(const Luminaire& other) const {
+        constexpr double same_cosine = 1 - 1e-6;
+        return solid == other.solid && dot(nadir, other.nadir) >= same_cosine &&
+               dot(c0, other.c0) >= same_cosine;
+    }
     /// A direction in the frame of its solid.
     Vec3 in_solid(const Vec3& direction) const {
         return {dot(direction, c0), dot(direction, c90), dot(direction, nadir)};
@@ -37,9 +42,9 @@ class LuminaireEmitter {
     LuminaireEmitter(const Luminaire& light, const Surroundings& surroundings, const Lift& lift);
 
     Emission emit(math::SampleStream& stream) const;
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(const SurfacePoint& at) const;
 
     static constexpr std::string_view kNoun = "a luminaire";
     const Vec3& lifted() const { return lifted_; }

@@ -29,11 +29,11 @@ Emission OpeningEmitter::emit(math::SampleStream& stream) const {
     const std::array<double, 2> u = stream.next_two();
     // Of a one-sided opening, which sends nothing to the other side.
     if (!(surface_.projected_area_m2(direction) > 0)) return {surface_.middle(), direction, {}};
-    const auto [lifted, normal, weight] = surface_.sample_projected(direction, u);
-    return {lifted, direction, Rgb::grey(weight)};
+    const EmitterPoint point = surface_.sample_projected(direction, u);
+    return {point.lifted, direction, Rgb::grey(point.weight)};
 }
 
-std::optional<IncidentLight> OpeningEmitter::sample_incident(const ReceivingPoint& at,
+std::optional<IncidentLight> OpeningEmitter::sample_incident(const SurfacePoint& at,
                                                              const std::array<double, 2>& u) const {
     const auto seen = surface_.sample_seen(at.position, u);
     if (!seen) return std::nullopt;
@@ -41,8 +41,8 @@ std::optional<IncidentLight> OpeningEmitter::sample_incident(const ReceivingPoin
                          luminance_cd_m2(-seen->direction) * (1 / seen->pdf_per_sr), seen->rough_pdf_per_sr};
 }
 
-double OpeningEmitter::rough_illuminance_lx(const Vec3& from, const Vec3&) const {
-    const Vec3 towards = from - surface_.middle();
+double OpeningEmitter::rough_illuminance_lx(const SurfacePoint& at) const {
+    const Vec3 towards = at.position - surface_.middle();
     const double squared_m2 = squared_length(towards), radius_m2 = surface_.radius_m() * surface_.radius_m();
     const double far_cd =
         squared_m2 > 0 ? luminaire_.factor.luminance() *

@@ -29,6 +29,7 @@ struct LuminousOpening {
     /// Over all points and directions of the front.
     Rgb mean_luminance_cd_m2(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { luminaire.scale(by); }
+    bool shines_like(const LuminousOpening& other) const { return luminaire.shines_like(other.luminaire); }
 };
 
 /// Keeps a reference to the solid. No direction with intensity sees nothing of the opening.
@@ -37,9 +38,9 @@ class OpeningEmitter {
     OpeningEmitter(const LuminousOpening& light, const Surroundings& surroundings, const Lift& lift);
 
     Emission emit(math::SampleStream& stream) const;
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(const SurfacePoint& at) const;
 
     /// Of the front, for a unit direction that leaves it.
     Rgb luminance_cd_m2(const Vec3& leaving) const;

@@ -20,7 +20,8 @@ struct PointLight {
     Rgb flux_lm(const Surroundings& surroundings) const;
     std::vector<LightDetail> details(const Surroundings& surroundings) const;
     void scale(const Rgb& by) { intensity_cd *= by; }
-    LightOrigin origin() const { return {position, std::nullopt}; }
+    LightOrigin origin() const { return {position, std::nullopt, intensity_cd}; }
+    bool shines_like(const PointLight&) const { return true; }
 };
 
 class PointEmitter {
@@ -28,9 +29,9 @@ class PointEmitter {
     PointEmitter(const PointLight& light, const Surroundings& surroundings, const Lift& lift);
 
     Emission emit(math::SampleStream& stream) const;
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint& at,
+    std::optional<IncidentLight> sample_incident(const SurfacePoint& at,
                                                  const std::array<double, 2>& u) const;
-    double rough_illuminance_lx(const Vec3& from, const Vec3& normal) const;
+    double rough_illuminance_lx(const SurfacePoint& at) const;
 
     static constexpr std::string_view kNoun = "a point";
     const Vec3& lifted() const { return light_.position; }
@@ -56,11 +57,11 @@ std::optional<IncidentLight> incident_from_point(const Vec3& position, const Vec
 
 /// The illuminance [lx] by such a source without shadows; its luminous intensity likewise.
 template <typename Intensity>
-double illuminance_by_point_lx(const Vec3& position, const Vec3& from, const Vec3& normal,
+double illuminance_by_point_lx(const Vec3& position, const SurfacePoint& at,
                                const Intensity& luminous_intensity_cd) {
-    const Vec3 towards = position - from;
+    const Vec3 towards = position - at.position;
     const double squared_distance = squared_length(towards);
-    const double height = dot(towards, normal);
+    const double height = dot(towards, at.normal);
     if (!(height > 0)) return 0;
     const double distance = std::sqrt(squared_distance);
     return luminous_intensity_cd(towards / distance) * height / (squared_distance * distance);
@@ -80,14 +81,14 @@ inline Emission PointEmitter::emit(math::SampleStream& stream) const {
     return {light_.position, math::sample_sphere(u1, u2).direction};
 }
 
-inline std::optional<IncidentLight> PointEmitter::sample_incident(const ReceivingPoint& at,
+inline std::optional<IncidentLight> PointEmitter::sample_incident(const SurfacePoint& at,
                                                                   const std::array<double, 2>&) const {
     return incident_from_point(light_.position, light_.position, at.position,
                                [&](const Vec3&) { return light_.intensity_cd; });
 }
 
-inline double PointEmitter::rough_illuminance_lx(const Vec3& from, const Vec3& normal) const {
-    return illuminance_by_point_lx(light_.position, from, normal,
+inline double PointEmitter::rough_illuminance_lx(const SurfacePoint& at) const {
+    return illuminance_by_point_lx(light_.position, at,
                                    [&](const Vec3&) { return light_.intensity_cd.luminance(); });
 }
 

@@ -40,13 +40,13 @@ std::optional<double> intersect_shape(const Disk& d, const RayInterval& ray) {
     return t;
 }
 
-SurfacePoint nearest_point(const Sphere& s, const Vec3& near_by) {
+NearestPoint nearest_point(const Sphere& s, const Vec3& near_by) {
     const Vec3 normal = normalized(near_by - s.center);
-    return {s.center + s.radius * normal, normal, s.radius};
+    return {{s.center + s.radius * normal, normal}, s.radius};
 }
 
-SurfacePoint nearest_point(const Disk& d, const Vec3& near_by) {
-    return {near_by - dot(near_by - d.center, d.normal) * d.normal, d.normal, d.radius};
+NearestPoint nearest_point(const Disk& d, const Vec3& near_by) {
+    return {{near_by - dot(near_by - d.center, d.normal) * d.normal, d.normal}, d.radius};
 }
 
 /// A sphere or a disk.
@@ -60,7 +60,7 @@ class RoundSurface final : public CurvedSurface {
     double intersect(std::size_t, const RayInterval& ray) const override {
         return intersect_shape(shape_, ray).value_or(kInfinity);
     }
-    SurfacePoint nearest_point(std::size_t, const Vec3& near_by) const override {
+    NearestPoint nearest_point(std::size_t, const Vec3& near_by) const override {
         return rays::nearest_point(shape_, near_by);
     }
 
@@ -92,9 +92,9 @@ class WholeHarmonics final : public CurvedSurface {
         if (!crossing) return kInfinity;
         return crossing->distance * length_of_unit;
     }
-    SurfacePoint nearest_point(std::size_t, const Vec3& near_by) const override {
+    NearestPoint nearest_point(std::size_t, const Vec3& near_by) const override {
         const Vec3 direction = near_by - shape_.center;
-        return {shape_.point_towards(direction), shape_.normal_towards(direction), length(direction)};
+        return {{shape_.point_towards(direction), shape_.normal_towards(direction)}, length(direction)};
     }
 
   private:
@@ -132,9 +132,9 @@ class HarmonicsInCells final : public CurvedSurface {
     LaneClassifications classifications(std::size_t part, const RayPacket& rays) const override {
         return cells_.classifications(part, rays, in_packets_);
     }
-    SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const override {
+    NearestPoint nearest_point(std::size_t part, const Vec3& near_by) const override {
         const auto [position, normal] = cells_.point_at(part, shape_.to_own(near_by));
-        return {shape_.to_world(position), shape_.axes.to_world(normal), shape_.scale * length(position)};
+        return {{shape_.to_world(position), shape_.axes.to_world(normal)}, shape_.scale * length(position)};
     }
 
   private:

@@ -25,9 +25,8 @@ struct RayInterval {
     double start = 0, end = 0;
 };
 
-/// A point of the surface with the unit normal of its front; `size_m` bounds the shape's extent.
-struct SurfacePoint {
-    Vec3 position, normal;
+/// A point on the front of the surface; `size_m` bounds the shape's extent.
+struct NearestPoint : SurfacePoint {
     double size_m = 0;
 };
 
@@ -44,7 +43,7 @@ class CurvedSurface {
     /// The result of intersect(), as far as it can be classified faster.
     virtual LaneClassifications classifications(std::size_t, const RayPacket&) const { return {}; }
     /// `near_by` (a hit with the rounding error of single precision) projected onto the part.
-    virtual SurfacePoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
+    virtual NearestPoint nearest_point(std::size_t part, const Vec3& near_by) const = 0;
 };
 
 /// The surface of a shape relative to `origin`; null where it is made of triangles.

@@ -160,7 +160,7 @@ struct RayCaster::Implementation {
             }
         } else {
             const Vec3 near_by = origin + ray.tfar * direction;
-            const SurfacePoint point = geometry.curved->nearest_point(met.primID, near_by);
+            const NearestPoint point = geometry.curved->nearest_point(met.primID, near_by);
             hit.position = inner_position = point.position;
             hit.normal = point.normal;
             size = point.size_m;

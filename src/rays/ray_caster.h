@@ -21,20 +21,18 @@
 #include "base/ids.h"
 #include "base/monitor.h"
 #include "base/rays.h"
+#include "base/surface_point.h"
 #include "base/vec.h"
 #include "rays/surface_packet.h"
 #include "scene/scene.h"
 
 namespace stilb::rays {
 
-/// A hit of a ray on a surface.
-struct Hit {
-    Vec3 position;
-    Vec3 normal;  ///< geometric, unit, on the side that the ray came from
+/// A hit of a ray on a surface: its side that the ray came from, with the geometric normal.
+struct Hit : SurfacePoint {
     /// The normal of the smooth surface that a mesh with vertex normals approximates, unit, less than a right
     /// angle from `normal`; else `normal`. Only materials use it (materials/shaded_surface.h).
     Vec3 shading_normal;
-    Vec3 lifted;        ///< the position, lifted off the surface on that side: rays start and end here
     double lift_m = 0;  ///< distance of `lifted` from `position`
     double distance_m = 0;
     ObjectId object{};

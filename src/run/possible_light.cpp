@@ -5,7 +5,6 @@
 #include <functional>
 
 #include "statistics/interval.h"
-#include "transport/direct/lamp_hull.h"
 #include "transport/line_of_sight.h"
 
 namespace stilb::run {
@@ -21,7 +20,7 @@ constexpr double kMayMiss = 4;
 constexpr double kUnsure = 2;
 
 /// The height of the box's highest corner above a surface element.
-double height_above(const MeasuringPoint& at, const Bounds& box) {
+double height_above(const SurfacePoint& at, const Bounds& box) {
     const Vec3 half = 0.5 * (box.max - box.min), &n = at.normal;
     return dot(box.middle() - at.position, n) + std::abs(n.x) * half.x + std::abs(n.y) * half.y +
            std::abs(n.z) * half.z;
@@ -55,7 +54,7 @@ void PossibleLight::find_lit(const estimators::Estimator& estimator) {
         if (!(reflectance > 0 && lx > 0)) continue;
         const double reflected_lm =
             reflectance * particle.flux_lm.luminance() / static_cast<double>(particles);
-        lit_.push_back({hit->lifted, hit->normal, reflectance, lx, reflected_lm});
+        lit_.push_back({*hit, reflectance, lx, reflected_lm});
         if (!is_specular(material) && estimator.is_met_by_chance(*hit)) met_by_chance_.push_back(lit_.back());
     }
     std::ranges::stable_sort(met_by_chance_, std::greater{}, &Lit::sample_lx);
@@ -64,33 +63,32 @@ void PossibleLight::find_lit(const estimators::Estimator& estimator) {
 double PossibleLight::missed(const Measurand& measurand, double largest, std::uint64_t samples) const {
     if (reflecting_.empty() || (largest > 0 && met_by_chance_.empty())) return 0;
     if (const auto* point = std::get_if<MeasuringPoint>(&measurand))
-        return missed_lx(*point, largest, samples);
+        return missed_lx({point->position, point->normal}, largest, samples);
     if (const auto* body = std::get_if<BodyPoint>(&measurand))
         return missed_lx({body->position, body->axis}, largest, samples) +
                missed_lx({body->position, -body->axis}, largest, samples);
     const auto surface = transport::first_surface(measurand, caster_);
     if (!surface) return 0;
-    return missed_lx({surface->position, surface->normal}, kPi * largest, samples) / kPi;
+    return missed_lx(*surface, kPi * largest, samples) / kPi;
 }
 
-double PossibleLight::missed_lx(const MeasuringPoint& at, double largest_lx, std::uint64_t samples) const {
+double PossibleLight::missed_lx(SurfacePoint at, double largest_lx, std::uint64_t samples) const {
     const double lift_m = caster_.offset_m(at.position, caster_.lift().largest_size_m());
     const auto is_above = [&](const Bounds& box) { return height_above(at, box) > 2 * lift_m; };
     if (std::ranges::none_of(reflecting_, is_above)) return 0;
-    const Vec3 lifted = at.position + lift_m * at.normal;
-    const double rare = rare_lx(at, lifted, largest_lx, samples);
+    at.lifted = at.position + lift_m * at.normal;
+    const double rare = rare_lx(at, largest_lx, samples);
     if (largest_lx > 0) return rare;
-    const double sample_lx = std::max(all_lx(at.position, at.normal), seen_lx(at, lifted));
+    const double sample_lx = std::max(all_lx(at), seen_lx(at));
     return std::max(rare, statistics::rare_light({sample_lx, 0}, samples));
 }
 
-double PossibleLight::rare_lx(const MeasuringPoint& at, const Vec3& lifted, double largest_lx,
-                              std::uint64_t samples) const {
+double PossibleLight::rare_lx(const SurfacePoint& at, double largest_lx, std::uint64_t samples) const {
     const auto count = static_cast<double>(samples);
     double light_lx = 0, squares = 0, met = 0, brightest_lx = 0;
     for (const Lit& lit : met_by_chance_) {
         if (!(lit.sample_lx() > kBrighter * largest_lx)) break;
-        const double of_it_lx = lit.reflected_lm / kPi * seen_per_m2(at, lifted, lit);
+        const double of_it_lx = lit.reflected_lm / kPi * seen_per_m2(at, lit);
         met += count * of_it_lx / lit.sample_lx();
         if (met > kMayMiss) break;
         if (of_it_lx > 0) brightest_lx = std::max(brightest_lx, lit.sample_lx());
@@ -100,41 +98,40 @@ double PossibleLight::rare_lx(const MeasuringPoint& at, const Vec3& lifted, doub
     return std::min(light_lx + kUnsure * std::sqrt(squares), kMayMiss * brightest_lx / count);
 }
 
-double PossibleLight::seen_per_m2(const MeasuringPoint& at, const Vec3& lifted, const Lit& lit) const {
-    const Vec3 offset = lit.lifted - lifted;
-    const double along = -dot(offset, lit.normal), above = dot(offset, at.normal);
+double PossibleLight::seen_per_m2(const SurfacePoint& at, const Lit& lit) const {
+    const Vec3 offset = lit.point.lifted - at.lifted;
+    const double along = -dot(offset, lit.point.normal), above = dot(offset, at.normal);
     if (along <= 0 || above <= 0) return 0;
-    if (!(caster_.transmittance({lifted, lit.lifted}).max() > 0)) return 0;
+    if (!(caster_.transmittance({at.lifted, lit.point.lifted}).max() > 0)) return 0;
     const double squared = squared_length(offset);
     return along * above / (squared * squared);
 }
 
-double PossibleLight::seen_lx(const MeasuringPoint& at, const Vec3& lifted) const {
+double PossibleLight::seen_lx(const SurfacePoint& at) const {
     // Particles carry about equal light, so that each stands for an area of 1 / illuminance.
     double light = 0, area = 0;
     for (const Lit& lit : lit_) {
-        const double seen = seen_per_m2(at, lifted, lit);
+        const double seen = seen_per_m2(at, lit);
         light += seen * lit.reflectance;
         area += seen / lit.lx;
     }
     return area > 0 ? light / area : 0;
 }
 
-double PossibleLight::sampled_lx(const rays::Hit& place, math::SampleStream& stream) const {
+double PossibleLight::sampled_lx(const SurfacePoint& at, math::SampleStream& stream) const {
     double sum_lx = 0;
     for (std::size_t light = 0; light < lights_.count(); ++light) {
-        const auto incident =
-            lights_.sample_incident(light, {place.position, place.normal}, stream.next_two());
-        const auto sample = incident ? transport::lamp_sample(*incident, place.normal) : std::nullopt;
+        const auto sample =
+            transport::direct_sample(lights_.sample_incident(light, at, stream.next_two()), at);
         if (sample) sum_lx += sample->illuminance_lx.luminance();
     }
     return sum_lx;
 }
 
-double PossibleLight::all_lx(const Vec3& position, const Vec3& normal) const {
+double PossibleLight::all_lx(const SurfacePoint& at) const {
     double sum_lx = 0;
     for (std::size_t light = 0; light < lights_.count(); ++light)
-        sum_lx += lights_.rough_illuminance_lx(light, position, normal) / lights_.choice_favour(light);
+        sum_lx += lights_.rough_illuminance_lx(light, at) / lights_.choice_favour(light);
     return sum_lx;
 }
 

@@ -24,7 +24,7 @@ class PossibleLight {
   private:
     /// A place that a particle of a lamp has met.
     struct Lit {
-        Vec3 lifted, normal;
+        SurfacePoint point;
         double reflectance = 0, lx = 0;
         double reflected_lm = 0;  ///< of the particle
 
@@ -32,17 +32,16 @@ class PossibleLight {
         double sample_lx() const { return reflectance * lx; }
     };
     void find_lit(const estimators::Estimator& estimator);
-    double missed_lx(const MeasuringPoint& at, double largest_lx, std::uint64_t samples) const;
+    double missed_lx(SurfacePoint at, double largest_lx, std::uint64_t samples) const;
     /// The unshadowed light of all lamps: a sample, and an estimate that is 0 only where there is none.
-    double sampled_lx(const rays::Hit& place, math::SampleStream& stream) const;
-    double all_lx(const Vec3& position, const Vec3& normal) const;
+    double sampled_lx(const SurfacePoint& at, math::SampleStream& stream) const;
+    double all_lx(const SurfacePoint& at) const;
     /// For places that a point sees: the cosines over the squared distance [1/m2]; else 0.
-    double seen_per_m2(const MeasuringPoint& at, const Vec3& lifted, const Lit& lit) const;
+    double seen_per_m2(const SurfacePoint& at, const Lit& lit) const;
     /// The mean light that lit places reflect, over those that are seen from there; 0 without any.
-    double seen_lx(const MeasuringPoint& at, const Vec3& lifted) const;
+    double seen_lx(const SurfacePoint& at) const;
     /// The light of the brightest places that only few of the samples meet.
-    double rare_lx(const MeasuringPoint& at, const Vec3& lifted, double largest_lx,
-                   std::uint64_t samples) const;
+    double rare_lx(const SurfacePoint& at, double largest_lx, std::uint64_t samples) const;
 
     const Scene& scene_;
     const rays::RayCaster& caster_;

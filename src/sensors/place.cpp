@@ -40,10 +40,11 @@ bool faces_lamp(const MeasuringPoint& point, const rays::Hit& close, const rays:
 /// At the point's own position.
 Place own_place(const MeasuringPoint& point, const rays::RayCaster& caster) {
     const auto close = close_surface(point, caster);
-    if (!close) return {point.position, point.position};
+    if (!close) return {{point.position, point.normal}};
     const Vec3 lift = close->lift_m * close->normal;
-    if (faces_lamp(point, *close, caster)) return {point.position, close->lifted_behind(), -lift};
-    return {point.position, close->lifted, lift, close};
+    if (faces_lamp(point, *close, caster))
+        return {{point.position, point.normal, close->lifted_behind()}, -lift};
+    return {{point.position, point.normal, close->lifted}, lift, close};
 }
 
 /// Looks around a measuring point.
@@ -56,7 +57,7 @@ class Surroundings {
           offset_m_(offset_at(point.position, caster)) {}
 
     /// Whether nothing but the surface that the point lies on is near to it. `own`: its own_place().
-    bool is_clear(const Place& own) const {
+    bool is_clear(const SurfacePoint& own) const {
         const bool is_free = own.lifted == own.position;
         const Vec3 from = point_.position + (is_free ? 0 : offset_m_) * point_.normal;
         return is_clear_across(from, margin_m()) && !(is_free && is_on_rim());
@@ -78,7 +79,7 @@ class Surroundings {
                 place.position = place.lifted - place.lift;
                 place.surface->position = place.position;
             } else if (place.surface) {
-                place = {position, position};
+                place = {{position, point_.normal}};
             }
             if (!is_clear_around(place) || is_beyond_a_wall(direction, place) || !accepts(place)) continue;
             const double sight = sight_from(place.lifted);
@@ -101,7 +102,7 @@ class Surroundings {
             if (!hit || length(hit->position - point_.position) > near * margin_m()) continue;
             if (nearest && hit->distance_m >= nearest->distance_m) continue;
             const Surroundings there({hit->position, hit->normal}, caster_);
-            if (there.is_clear({hit->position, hit->lifted})) nearest = hit;
+            if (there.is_clear(*hit)) nearest = hit;
         }
         return nearest;
     }
@@ -207,13 +208,13 @@ Place place_of(const MeasuringPoint& point, const rays::RayCaster& caster) {
 Place place_of(const BodyPoint& body, const rays::RayCaster& caster) {
     if (Place place = place_of(MeasuringPoint{body.position, body.axis}, caster); place.surface) return place;
     const auto side = side_of(body, caster);
-    if (!side) return {body.position, body.position};
+    if (!side) return {{body.position}};
     return place_of(MeasuringPoint{body.position, *side}, caster);
 }
 
 rays::Hit clear_of_walls(const rays::Hit& hit, const Vec3& eye, const rays::RayCaster& caster) {
     const Surroundings surroundings({hit.position, hit.normal}, caster);
-    if (surroundings.is_clear({hit.position, hit.lifted})) return hit;
+    if (surroundings.is_clear(hit)) return hit;
     const auto place = surroundings.best_place([&](const Place& at) {
         return at.surface && at.surface->object == hit.object && !caster.occluded(eye, at.lifted);
     });

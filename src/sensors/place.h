@@ -13,10 +13,9 @@
 
 namespace stilb::sensors {
 
-struct Place {
-    Vec3 position;
-    Vec3 lifted;  ///< the start of rays: off the surface that the position lies on, if any
-    Vec3 lift{};  ///< off that surface; 0 where there is none
+/// A place with the normal of its measuring point, which is 0 for a body that stands free.
+struct Place : SurfacePoint {
+    Vec3 lift{};                         ///< off the surface that the position lies on; 0 where there is none
     std::optional<rays::Hit> surface{};  ///< that it lies on, on the side of the normal
 };
 

@@ -70,9 +70,10 @@ std::optional<LaneLights> LaneLights::of(const Scene& scene, const Lift& lift, c
         Light lane{};
         lane.flux_lm = static_cast<float>(lights.choice_favour(all.lights_.size()) *
                                           scene::flux_lm(scene, light).luminance());
-        if (const auto* point = std::get_if<PointLight>(&light.source)) {
-            lane.rectangle.corner = lane_point(point->position - center);
-            lane.emission = lane_rgb(point->intensity_cd);
+        const auto origin = lights::point_origin(light);
+        if (origin && origin->intensity_cd) {
+            lane.rectangle.corner = lane_point(origin->position - center);
+            lane.emission = lane_rgb(*origin->intensity_cd);
             lane.is_point = true;
         } else if (const auto surface = lights::uniform_emission(light)) {
             const auto rectangle = lane_rectangle(scene.object(surface->object).shape, center);
@@ -196,6 +197,48 @@ float LaneLights::pdf_per_sr(std::size_t light, const Vec3& position, const Vec3
     float total = 0;
     for (const Light& other : lights_) total += rough_lx(other, at, lane_point(normal));
     return total > 0 ? pdf * rough_lx(own, at, lane_point(normal)) / total : 0;
+}
+
+PacketLights::PacketLights(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
+    : caster_(caster), lights_(lights) {
+    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.lift(), lights);
+}
+
+math::NumberPacket PacketLights::sample(const rays::SurfacePacket& at, const LaneMask& lanes,
+                                        math::StreamPacket& streams, unsigned sobol_dimensions,
+                                        LightPacket& light) const {
+    if (!lane_lights_) {
+        sample_one_by_one(at, lanes, streams, sobol_dimensions, light);
+        skip_four(streams);
+    }
+    const math::NumberPacket numbers = next_four(streams, sobol_dimensions);
+    if (lane_lights_) lane_lights_->sample(at, numbers, light);
+    return numbers;
+}
+
+void PacketLights::sample_one_by_one(const rays::SurfacePacket& at, const LaneMask& lanes,
+                                     const math::StreamPacket& streams, unsigned sobol_dimensions,
+                                     LightPacket& light) const {
+    const Vec3& center = caster_.center();
+    for (std::size_t i = 0; i < kPacketWidth; ++i) {
+        for (RayPacket::Floats& band : light.normal_illuminance_lx) band[i] = 0;
+        if (lanes[i] == 0) continue;
+        math::SampleStream stream = streams.stream(i, sobol_dimensions);
+        const auto incident = lights_.sample_one_light({at.position.at(i) + center, at.normal.at(i)}, stream);
+        if (!incident) continue;
+        light.source.set(i, incident->source_point - center);
+        light.direction.set(i, incident->direction);
+        for (std::size_t b = 0; b < kBands; ++b)
+            light.normal_illuminance_lx[b][i] = static_cast<float>(incident->normal_illuminance_lx[b]);
+        light.inverse_pdf_sr[i] = static_cast<float>(1 / incident->pdf_per_sr);
+        light.light[i] = incident->light;
+    }
+}
+
+double PacketLights::pdf_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const {
+    if (!lane_lights_) return lights_.pdf_per_sr(light, hit, at);
+    const Vec3& center = caster_.center();
+    return double{lane_lights_->pdf_per_sr(light, hit.position - center, at.position - center, at.normal)};
 }
 
 }  // namespace stilb::transport

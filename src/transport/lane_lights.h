@@ -1,7 +1,6 @@
 // Next-event estimation for sixteen surface points at once, in scenes that have few lights, all of them
-// points or right-angled rectangles. Other scenes take LightSampler, point by point. The expectation is the
-// same; densities are this class's own, so that MIS weights at a vertex take either this class or
-// LightSampler.
+// points or right-angled rectangles. The expectation is that of LightSampler, in a
+// fraction of its time; the densities are its own.
 #pragma once
 
 #include <array>
@@ -65,6 +64,30 @@ class LaneLights {
     std::vector<Light> lights_;
     std::shared_ptr<const Chosen> only_;  ///< the choice where there is one light; else null
     float least_size_m_ = 0;              ///< see Lift
+};
+
+/// Samples of direct light at packets of surface points: one light at each, by LaneLights where it has all
+/// lights, else by LightSampler, lane by lane. Immutable. Keeps references to caster and lights.
+class PacketLights {
+  public:
+    PacketLights(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights);
+
+    /// For the lanes that are set. Uses numbers of the streams up; of those that it returns, the third and
+    /// the fourth one are left. `sobol_dimensions`: of the streams.
+    math::NumberPacket sample(const rays::SurfacePacket& at, const LaneMask& lanes,
+                              math::StreamPacket& streams, unsigned sobol_dimensions,
+                              LightPacket& light) const;
+    /// The density of the direction from a point to `hit`, on the emitter of a light.
+    double pdf_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const;
+
+  private:
+    void sample_one_by_one(const rays::SurfacePacket& at, const LaneMask& lanes,
+                           const math::StreamPacket& streams, unsigned sobol_dimensions,
+                           LightPacket& light) const;
+
+    const rays::RayCaster& caster_;
+    const LightSampler& lights_;
+    std::optional<LaneLights> lane_lights_;
 };
 
 }  // namespace stilb::transport

@@ -35,8 +35,8 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
         const double survival = survival_probability(flux, reflectance_bound(material));
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
-        nodes.push_back({hit->position, hit->lifted, hit->normal, hit->shading_normal, -direction, &material,
-                         flux, ++reflections, only_by_light, particle.favour, 1, particle.light});
+        nodes.push_back({*hit, hit->shading_normal, -direction, &material, flux, ++reflections, only_by_light,
+                         particle.favour, 1, particle.light});
         const materials::ShadedSurface surface(material, hit->normal, hit->shading_normal);
         const auto [u1, u2] = stream.next_two();
         const auto scattered = surface.sample_outgoing(surface.frame().to_local(-direction), u1, u2);

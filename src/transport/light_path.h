@@ -9,11 +9,9 @@
 
 namespace stilb::transport {
 
-/// A vertex of a light path: a surface point that a particle reaches, with the flux that it carries.
-struct LightVertex {
-    Vec3 position;
-    Vec3 lifted;                         ///< off the surface, where rays start
-    Vec3 normal;                         ///< on the side that the particle came from
+/// A vertex of a light path: a surface point that a particle reaches, on the side that it came from, with the
+/// flux that it carries.
+struct LightVertex : SurfacePoint {
     Vec3 shading_normal;                 ///< as in rays::Hit
     Vec3 incoming;                       ///< unit, towards the previous vertex
     const Material* material = nullptr;  ///< owned by the scene

@@ -34,10 +34,11 @@ LightSampler::LightSampler(const Scene& scene, const rays::RayCaster& caster,
     for (std::size_t i = 0; i < weights.size(); ++i) weights[i] *= emission_favours_[i];
     by_emission_ = math::DiscreteDistribution(weights);
     set_choice_favours(caster);
-    if (goes_by_tree()) tree_ = planted_tree(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); });
-    const auto extended = std::ranges::count(locations_, LightLocation::surface);
-    if (extended > std::ptrdiff_t{kFew})
-        extended_ = planted_tree(scene, [&](std::uint32_t i) { return !is_point(i); });
+    const bool chooses_outside = has_light_from_outside() && !is_made_elsewhere(outside_);
+    all_ = {leaves(scene, [&](std::uint32_t i) { return !is_made_elsewhere(i); }),
+            chooses_outside ? std::optional(outside_) : std::nullopt};
+    std::vector<LightTree::Light> extended = leaves(scene, [&](std::uint32_t i) { return !is_point(i); });
+    if (extended.size() > LightChoice::kFew) extended_ = {std::move(extended), std::nullopt};
 }
 
 void LightSampler::add(const Light& light, const Scene& scene, const rays::RayCaster& caster) {
@@ -89,13 +90,7 @@ void LightSampler::set_choice_favours(const rays::RayCaster& caster) {
     std::vector<double> flux_lm;
     for (std::size_t i = 0; i < count(); ++i)
         flux_lm.push_back(i == outside_ || is_made_elsewhere(i) ? 0 : flux_lm_[i].luminance());
-    const auto emit_one = [this](std::size_t light, math::SampleStream& stream) {
-        return emit(light, stream);
-    };
-    const auto rough_lx = [this](std::size_t light, const Vec3& position, const Vec3& normal) {
-        return rough_illuminance_lx(light, position, normal);
-    };
-    choice_favours_ = choice_favours({flux_lm, emit_one, rough_lx, count(), outside_ != kNoLight}, caster);
+    choice_favours_ = choice_favours(*this, flux_lm, caster);
 }
 
 EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const {
@@ -109,7 +104,7 @@ EmittedParticle LightSampler::sample_emission(math::SampleStream& stream) const 
             emission_favours_[choice.index] * favour};
 }
 
-std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const ReceivingPoint& at,
+std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, const SurfacePoint& at,
                                                            const std::array<double, 2>& u) const {
     std::optional<IncidentLight> incident =
         std::visit([&](const auto& emitter) { return emitter.sample_incident(at, u); }, emitters_[light]);
@@ -117,126 +112,76 @@ std::optional<IncidentLight> LightSampler::sample_incident(std::size_t light, co
     return incident;
 }
 
-double LightSampler::rough_illuminance_lx(std::size_t light, const Vec3& from, const Vec3& normal) const {
+double LightSampler::rough_illuminance_lx(std::size_t light, const SurfacePoint& at) const {
     if (is_made_elsewhere(light)) return 0;
     return choice_favours_[light] *
-           std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(from, normal); },
+           std::visit([&](const auto& emitter) { return emitter.rough_illuminance_lx(at); },
                       emitters_[light]);
 }
 
-LightSampler::Choices::Choices(const LightSampler& lights, const Vec3& from, const Vec3& normal)
-    : lights_(lights), from_(from), normal_(normal) {
-    if (lights.goes_by_tree()) {
-        cut_ = lights.tree_.cut(from, normal, rough());
-        if (lights.outside_ != kNoLight) outside_lx_ = rough()(lights.outside_);
-        all_lx_ = outside_lx_ + cut_.total_lx();
-        return;
-    }
-    for (std::uint32_t light = 0; light < lights.count(); ++light)
-        sums_lx_[light] = all_lx_ += rough()(light);
-}
-
-math::DiscreteChoice LightSampler::Choices::choose(double u) const {
-    if (!lights_.goes_by_tree()) return math::choose_by_sums({sums_lx_.data(), lights_.count()}, u);
-    const double outside = outside_lx_ / all_lx_;
-    if (u < outside) return {lights_.outside_, outside, u / outside};
-    const double rest = std::min((u - outside) / (1 - outside), math::kBelowOne);
-    math::DiscreteChoice choice = lights_.tree_.choose(cut_, from_, normal_, rest, rough());
-    choice.probability *= 1 - outside;
-    return choice;
-}
-
-std::optional<IncidentLight> LightSampler::Choices::sample(const math::DiscreteChoice& choice,
-                                                           const std::array<double, 2>& u,
-                                                           std::uint32_t choices) const {
-    auto incident = lights_.sample_incident(choice.index, {from_, normal_}, u);
+std::optional<IncidentLight> LightSampler::sample_chosen(std::size_t light, double expected,
+                                                         const SurfacePoint& at,
+                                                         const std::array<double, 2>& u) const {
+    auto incident = sample_incident(light, at, u);
     if (incident) {
-        const double expected = choices * choice.probability;
         incident->normal_illuminance_lx *= 1 / expected;
         incident->pdf_per_sr *= expected;
     }
     return incident;
 }
 
-double LightSampler::tree_probability(std::size_t light, const Vec3& from, const Vec3& normal) const {
-    const auto rough_lx = [&](std::uint32_t other) { return rough_illuminance_lx(other, from, normal); };
-    const LightTree::Cut cut = tree_.cut(from, normal, rough_lx);
-    const double outside_lx = outside_ == kNoLight ? 0 : rough_lx(outside_),
-                 all_lx = outside_lx + cut.total_lx();
-    if (light == outside_) return all_lx > 0 ? outside_lx / all_lx : 0;
-    if (!(cut.total_lx() > 0)) return 0;
-    return cut.total_lx() / all_lx *
-           tree_.probability(cut, static_cast<std::uint32_t>(light), from, normal, rough_lx);
-}
-
-template <typename Condition>
-LightTree LightSampler::planted_tree(const Scene& scene, const Condition& condition) const {
-    std::vector<LightTree::Light> leaves;
-    for (std::uint32_t i = 0; i < count(); ++i) {
-        if (!condition(i)) continue;
-        // Between that of a ball and of a flat surface along its normal.
-        const double luminous_lm = choice_favours_[i] * flux_lm_[i].luminance();
-        LightTree::Light leaf{i, {}, luminous_lm / (2 * std::numbers::pi), is_point(i)};
-        if (const auto origin = lights::point_origin(scene.lights[i])) {
-            leaf.bounds.include(origin->position);
-            leaf.intensity_cd /= 2;
-        }
-        if (const auto object = lights::emitting_object(scene.lights[i]))
-            leaf.bounds = bounds_of(scene.object(*object).shape);
-        if (!leaf.bounds.is_empty()) leaves.push_back(leaf);
+LightTree::Light LightSampler::leaf(const Scene& scene, std::uint32_t light) const {
+    // Between the intensity of a ball and that of a flat surface along its normal.
+    const double luminous_lm = choice_favours_[light] * flux_lm_[light].luminance();
+    LightTree::Light leaf{light, {}, luminous_lm / (2 * std::numbers::pi), is_point(light)};
+    if (const auto origin = lights::point_origin(scene.lights[light])) {
+        leaf.bounds.include(origin->position);
+        leaf.intensity_cd /= 2;
     }
-    return LightTree(std::move(leaves));
+    if (const auto object = lights::emitting_object(scene.lights[light]))
+        leaf.bounds = bounds_of(scene.object(*object).shape);
+    return leaf;
 }
 
 double LightSampler::extended_pdf_per_sr(std::size_t light, const rays::Hit& hit,
-                                         const ReceivingPoint& at) const {
-    const double pdf_per_sr = pdf_of_its_light_per_sr(light, hit, at.position);
+                                         const SurfacePoint& at) const {
+    const double pdf_per_sr = pdf_of_its_light_per_sr(light, hit, at);
     if (!(pdf_per_sr > 0) || !chooses_extended(at)) return pdf_per_sr;
-    const auto rough_lx = rough_at(at);
-    const LightTree::Cut cut = extended_.cut(at.position, *at.normal, rough_lx);
-    if (!(cut.total_lx() > 0)) return 0;
-    const auto number = static_cast<std::uint32_t>(light);
-    return kFew * extended_.probability(cut, number, at.position, *at.normal, rough_lx) * pdf_per_sr;
+    return kExtended * LightChoice::At(extended_, *this, at)
+                           .times_probability(pdf_per_sr, static_cast<std::uint32_t>(light));
 }
 
-std::optional<IncidentLight> LightSampler::sample_one_light(const Vec3& from, const Vec3& normal,
+std::optional<IncidentLight> LightSampler::sample_one_light(const SurfacePoint& at,
                                                             math::SampleStream& stream) const {
-    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, {from, normal}, stream.next_two());
+    if (count() == 1 && !is_made_elsewhere(0)) return sample_incident(0, at, stream.next_two());
     const double u = stream.next();
     const auto point = stream.next_two();
-    const Choices choices(*this, from, normal);
-    if (choices.is_empty()) return std::nullopt;
-    return choices.sample(choices.choose(u), point, 1);
+    const LightChoice::At choice_at(all_, *this, at);
+    if (choice_at.is_empty()) return std::nullopt;
+    const math::DiscreteChoice choice = choice_at.choose(u);
+    return sample_chosen(choice.index, choice.probability, at, point);
 }
 
 double LightSampler::pdf_of_its_light_per_sr(std::size_t light, const rays::Hit& hit,
-                                             const Vec3& from) const {
+                                             const SurfacePoint& at) const {
     return std::visit(
         [&]<typename Emitter>(const Emitter& emitter) -> double {
             if constexpr (lights::SurfaceEmitterKind<Emitter>) {
-                return emitter.pdf_per_sr(hit.triangle, hit.position, hit.normal, from);
+                return emitter.pdf_per_sr(hit.triangle, hit.position, hit.normal, at.position);
             }
             return 0;
         },
         emitters_[light]);
 }
 
-double LightSampler::pdf_per_sr(std::size_t light, const rays::Hit& hit, const Vec3& from,
-                                const Vec3& normal) const {
+double LightSampler::pdf_per_sr(std::size_t light, const rays::Hit& hit, const SurfacePoint& at) const {
     if (is_made_elsewhere(light)) return std::numeric_limits<double>::infinity();
-    return times_choice(pdf_of_its_light_per_sr(light, hit, from), light, from, normal);
+    return times_choice(pdf_of_its_light_per_sr(light, hit, at), light, at);
 }
 
-double LightSampler::times_choice(double pdf, std::size_t light, const Vec3& from, const Vec3& normal) const {
-    if (count() == 1) return pdf;
-    if (goes_by_tree()) return pdf * tree_probability(light, from, normal);
-    double total = 0, own = 0;
-    for (std::size_t i = 0; i < count(); ++i) {
-        const double rough_lx = rough_illuminance_lx(i, from, normal);
-        total += rough_lx;
-        if (i == light) own = rough_lx;
-    }
-    return total > 0 ? pdf * own / total : 0;
+double LightSampler::times_choice(double pdf_per_sr, std::size_t light, const SurfacePoint& at) const {
+    if (count() == 1) return pdf_per_sr;
+    return LightChoice::At(all_, *this, at).times_probability(pdf_per_sr, static_cast<std::uint32_t>(light));
 }
 
 Rgb LightSampler::outside_luminance(const Vec3& direction) const {
@@ -249,7 +194,7 @@ Rgb LightSampler::outside_luminance(const Vec3& direction) const {
         emitters_[outside_]);
 }
 
-double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const ReceivingPoint& at) const {
+double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const SurfacePoint& at) const {
     if (outside_ == kNoLight) return 0;
     return std::visit(
         [&]<typename Emitter>(const Emitter& emitter) -> double {
@@ -259,10 +204,10 @@ double LightSampler::pdf_of_outside_light_per_sr(const Vec3& direction, const Re
         emitters_[outside_]);
 }
 
-double LightSampler::outside_pdf_per_sr(const Vec3& direction, const Vec3& from, const Vec3& normal) const {
+double LightSampler::outside_pdf_per_sr(const Vec3& direction, const SurfacePoint& at) const {
     if (outside_ == kNoLight) return 0;
     if (is_made_elsewhere(outside_)) return std::numeric_limits<double>::infinity();
-    return times_choice(pdf_of_outside_light_per_sr(direction, {from, normal}), outside_, from, normal);
+    return times_choice(pdf_of_outside_light_per_sr(direction, at), outside_, at);
 }
 
 Rgb LightSampler::emitted_luminance(const rays::Hit& hit, const Vec3& leaving, LightParts* parts) const {

@@ -54,8 +54,9 @@ double LightTree::nearness_of(const Node& node, const Vec3& from) {
     return squared_m2 > 0 ? node.squared_radius_m2 / squared_m2 : std::numeric_limits<double>::infinity();
 }
 
-double LightTree::box_lx(const Node& node, const Vec3& from, const Vec3& normal) {
-    const Vec3 towards = node.center - from;
+double LightTree::box_lx(const Node& node, const SurfacePoint& at) {
+    const auto& [position, normal, lifted] = at;
+    const Vec3 towards = node.center - position;
     const double reach_m = std::abs(normal.x) * node.half.x + std::abs(normal.y) * node.half.y +
                            std::abs(normal.z) * node.half.z;
     const double height_m = dot(towards, normal) + reach_m;  // of the box's highest corner

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "base/vec.h"
+#include "base/surface_point.h"
 #include "math/sampling.h"
 
 namespace stilb::transport {
@@ -62,42 +62,24 @@ class LightTree {
         std::array<double, kMostOpen> sums_lx_;
         std::size_t count_ = 0;
     };
-    template <typename Rough>
-    Cut cut(const Vec3& from, const Vec3& normal, const Rough& rough_lx) const {
-        return cut(PointView<Rough>{from, normal, rough_lx});
-    }
-    /// The same for other receivers than a point: `view` has nearness(node) and estimate_lx(node).
+    /// `view`: of a receiver, with nearness(node) and estimate_lx(node).
     template <typename View>
     Cut cut(const View& view) const;
 
     /// A light's number with its probability; the cut of the same point must not be empty.
-    template <typename Rough>
-    math::DiscreteChoice choose(const Cut& cut, const Vec3& from, const Vec3& normal, double u,
-                                const Rough& rough_lx) const {
-        return choose(cut, PointView<Rough>{from, normal, rough_lx}, u);
-    }
     template <typename View>
     math::DiscreteChoice choose(const Cut& cut, const View& view, double u) const;
     /// The probability that choose() selects a light of the tree.
-    template <typename Rough>
-    double probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
-                       const Rough& rough_lx) const;
+    template <typename View>
+    double probability(const Cut& cut, std::uint32_t number, const View& view) const;
+
+    /// The squared ratio of a box's radius and its distance; boxes below kNear stay closed.
+    static double nearness_of(const Node& node, const Vec3& from);
+    static double box_lx(const Node& node, const SurfacePoint& at);
 
   private:
     void divide(std::uint32_t node, std::span<Light> lights);
-    /// The squared ratio of a box's radius and its distance; boxes below kNear stay closed.
-    static double nearness_of(const Node& node, const Vec3& from);
     static constexpr double kNear = 1. / 9;
-    static double box_lx(const Node& node, const Vec3& from, const Vec3& normal);
-    template <typename Rough>
-    struct PointView {
-        const Vec3 &from, &normal;
-        const Rough& rough_lx;
-        double nearness(const Node& node) const { return nearness_of(node, from); }
-        double estimate_lx(const Node& node) const {
-            return node.is_point ? rough_lx(node.first) : box_lx(node, from, normal);
-        }
-    };
     /// The probability of the first child. A box may have a corner above the horizon where neither child has
     /// one.
     template <typename View>
@@ -168,22 +150,20 @@ math::DiscreteChoice LightTree::choose(const Cut& cut, const View& view, double 
     return choice;
 }
 
-template <typename Rough>
-double LightTree::probability(const Cut& cut, std::uint32_t number, const Vec3& from, const Vec3& normal,
-                              const Rough& rough_lx) const {
-    const PointView<Rough> view{from, normal, rough_lx};
+template <typename View>
+double LightTree::probability(const Cut& cut, std::uint32_t number, const View& view) const {
     double below = 1;
     const auto end = cut.nodes_.begin() + static_cast<std::ptrdiff_t>(cut.count_);
-    for (std::uint32_t at = node_of_[number];; at = nodes_[at].parent) {
-        const auto found = std::find(cut.nodes_.begin(), end, at);
+    for (std::uint32_t node = node_of_[number];; node = nodes_[node].parent) {
+        const auto found = std::find(cut.nodes_.begin(), end, node);
         if (found != end) {
             const auto index = static_cast<std::size_t>(found - cut.nodes_.begin());
             const double own_lx = cut.sums_lx_[index] - (index == 0 ? 0 : cut.sums_lx_[index - 1]);
             return below * own_lx / cut.total_lx();
         }
-        const Node& parent = nodes_[nodes_[at].parent];
+        const Node& parent = nodes_[nodes_[node].parent];
         const double first = first_probability(parent, view);
-        below *= at == parent.first ? first : 1 - first;
+        below *= node == parent.first ? first : 1 - first;
     }
 }
 

@@ -24,8 +24,7 @@ struct alignas(64) PathPacket {
     /// As PreviousVertex.
     Floats previous_pdf_per_sr;
     rays::LaneVectors previous_position, previous_normal;
-    /// 1 where LaneLights sampled the light there, 0 where LightSampler did.
-    Words previous_took_lanes;
+    Words previous_in_packet;
     /// The ray to the next vertex, and that vertex.
     rays::LaneVectors origin, direction;
     rays::SurfacePacket surface;

@@ -16,7 +16,8 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
       lights_(lights),
       stored_(stored),
       plain_materials_(scene.materials.size()),
-      may_emit_(scene.objects.size()) {
+      may_emit_(scene.objects.size()),
+      packet_lights_(scene, caster, lights) {
     for (const Light& light : scene.lights) {
         if (const auto surface = lights::emitting_object(light)) may_emit_[index_of(*surface)] = true;
     }
@@ -28,7 +29,6 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
         for (std::size_t b = 0; b < kBands; ++b)
             plain_materials_[i].reflectance[b] = static_cast<float>(diffuse->reflectance[b]);
     }
-    if (!lights.leaves_out_lights()) lane_lights_ = LaneLights::of(scene, caster.lift(), lights);
 }
 
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
@@ -111,7 +111,7 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     const materials::ShadedSurface surface(material, hit.normal, hit.shading_normal);
     const Frame& frame = surface.frame();
     const Vec3 out = frame.to_local(path.outgoing);
-    const auto light = lights_.sample_one_light(hit.position, hit.normal, path.stream);
+    const auto light = lights_.sample_one_light(hit, path.stream);
     if (light && dot(light->direction, hit.normal) > 0) {
         const Vec3 in = frame.to_local(light->direction);
         const auto [brdf_per_sr, pdf_per_sr] = surface.evaluate(in, out);
@@ -126,17 +126,16 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
     const auto scattered = surface.sample_incoming(out, u1, u2);
     if (!scattered) return step;
     path.throughput *= scattered->weight * (1 / survival);
-    path.previous_vertex = {scattered->pdf_per_sr, hit.position, hit.normal};
+    path.previous_vertex = {scattered->pdf_per_sr, hit};
     step.ray = {hit.lifted, frame.to_world(scattered->direction)};
     return step;
 }
 
 double PathTracer::pdf_per_sr(const PreviousVertex& previous_vertex, std::size_t light,
                               const rays::Hit& emitter) const {
-    const auto& [pdf, position, normal, took_lanes] = previous_vertex;
-    if (!took_lanes) return lights_.pdf_per_sr(light, emitter, position, normal);
-    const Vec3& center = caster_.center();
-    return double{lane_lights_->pdf_per_sr(light, emitter.position - center, position - center, normal)};
+    const SurfacePoint& from = previous_vertex.point;
+    return previous_vertex.in_packet ? packet_lights_.pdf_per_sr(light, emitter, from)
+                                     : lights_.pdf_per_sr(light, emitter, from);
 }
 
 void PathTracer::leave(Path& path, const Vec3& direction) const {
@@ -155,7 +154,7 @@ void PathTracer::arrive(Path& path, const Vec3& direction, const rays::Hit& next
 
 std::optional<IncidentLight> PathTracer::sample_light(const rays::Hit& surface,
                                                       math::SampleStream& stream) const {
-    auto light = lights_.sample_one_light(surface.position, surface.normal, stream);
+    auto light = lights_.sample_one_light(surface, stream);
     if (!light || dot(light->direction, surface.normal) <= 0) return std::nullopt;
     light->normal_illuminance_lx *= caster_.transmittance({surface.lifted, light->source_point});
     if (!(light->normal_illuminance_lx.max() > 0)) return std::nullopt;

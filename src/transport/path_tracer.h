@@ -30,8 +30,8 @@ struct PreviousVertex {
     /// Density of the path's direction; infinite where next-event estimation cannot find the light of the
     /// path, 0 where it finds all of it.
     double pdf_per_sr = std::numeric_limits<double>::infinity();
-    Vec3 position{}, normal{};  ///< of the surface, where the density is finite
-    bool took_lanes = false;    ///< next-event estimation there was that of LaneLights
+    SurfacePoint point{};    ///< where the density is finite
+    bool in_packet = false;  ///< next-event estimation there was that of PacketLights
 };
 
 /// For paths that leave out directly visible emission.
@@ -165,7 +165,7 @@ class PathTracer {
     const StoredReflection* stored_;
     std::vector<PlainMaterial> plain_materials_;  ///< by MaterialId
     std::vector<bool> may_emit_;                  ///< by ObjectId
-    std::optional<LaneLights> lane_lights_;
+    PacketLights packet_lights_;
 };
 
 /// The MIS weight of light that a path finds by itself. `other_pdf_per_sr`: the density of next-event
@@ -193,10 +193,7 @@ void PathTracer::visit_outside_light_towards(const PreviousVertex& previous_vert
     const Rgb luminance = lights_.outside_luminance(direction);
     if (!(luminance.max() > 0)) return;
     visit(luminance * share_of(previous_vertex,
-                               [&] {
-                                   return lights_.outside_pdf_per_sr(direction, previous_vertex.position,
-                                                                     previous_vertex.normal);
-                               }),
+                               [&] { return lights_.outside_pdf_per_sr(direction, previous_vertex.point); }),
           lights_.light_from_outside());
 }
 

@@ -100,37 +100,12 @@ void PathWave::reflect_plain(PathPacket& paths, LaneMask& lanes, ConnectionPacke
         if (paths.reflections_left[i]-- == 0) lanes[i] = 0;
     }
     LightPacket light{};
-    if (tracer_.lane_lights_) {
-        const math::NumberPacket numbers = next_four(paths.streams, sobol_dimensions_);
-        tracer_.lane_lights_->sample(paths.surface, numbers, light);
-        connect_diffuse(paths, reflectance, light, lanes, connections);
-        connections.light = light.light;
-        reflect_diffuse(numbers, reflectance, lanes, paths);
-    } else {
-        sample_lights(paths, lanes, light);
-        connect_diffuse(paths, reflectance, light, lanes, connections);
-        connections.light = light.light;
-        skip_four(paths.streams);
-        reflect_diffuse(next_four(paths.streams, sobol_dimensions_), reflectance, lanes, paths);
-    }
-    paths.previous_took_lanes.fill(tracer_.lane_lights_ ? 1 : 0);
-}
-
-void PathWave::sample_lights(const PathPacket& paths, const LaneMask& lanes, LightPacket& light) const {
-    const Vec3& center = tracer_.caster_.center();
-    for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        set_rgb(light.normal_illuminance_lx, i, {});
-        if (lanes[i] == 0) continue;
-        math::SampleStream stream = paths.streams.stream(i, sobol_dimensions_);
-        const auto incident = tracer_.lights_.sample_one_light(paths.surface.position.at(i) + center,
-                                                               paths.surface.normal.at(i), stream);
-        if (!incident) continue;
-        light.source.set(i, incident->source_point - center);
-        light.direction.set(i, incident->direction);
-        set_rgb(light.normal_illuminance_lx, i, incident->normal_illuminance_lx);
-        light.inverse_pdf_sr[i] = static_cast<float>(1 / incident->pdf_per_sr);
-        light.light[i] = incident->light;
-    }
+    const math::NumberPacket numbers =
+        tracer_.packet_lights_.sample(paths.surface, lanes, paths.streams, sobol_dimensions_, light);
+    connect_diffuse(paths, reflectance, light, lanes, connections);
+    connections.light = light.light;
+    reflect_diffuse(numbers, reflectance, lanes, paths);
+    paths.previous_in_packet.fill(1);
 }
 
 void PathWave::reflect_generally(PathPacket& paths, std::size_t lane, LaneMask& lanes,
@@ -219,8 +194,9 @@ void PathWave::add(const PathPacket& paths, std::size_t lane, const Rgb& luminan
 }
 
 PreviousVertex PathWave::previous_vertex(const PathPacket& paths, std::size_t lane) const {
-    return {paths.previous_pdf_per_sr[lane], paths.previous_position.at(lane) + tracer_.caster_.center(),
-            paths.previous_normal.at(lane), paths.previous_took_lanes[lane] != 0};
+    return {paths.previous_pdf_per_sr[lane],
+            {paths.previous_position.at(lane) + tracer_.caster_.center(), paths.previous_normal.at(lane)},
+            paths.previous_in_packet[lane] != 0};
 }
 
 void PathWave::set_state(PathPacket& paths, std::size_t lane, const Path& path) const {
@@ -229,9 +205,9 @@ void PathWave::set_state(PathPacket& paths, std::size_t lane, const Path& path) 
     set_rgb(paths.throughput, lane, path.throughput);
     const PreviousVertex& previous = path.previous_vertex;
     paths.previous_pdf_per_sr[lane] = static_cast<float>(previous.pdf_per_sr);
-    paths.previous_position.set(lane, previous.position - tracer_.caster_.center());
-    paths.previous_normal.set(lane, previous.normal);
-    paths.previous_took_lanes[lane] = previous.took_lanes ? 1 : 0;
+    paths.previous_position.set(lane, previous.point.position - tracer_.caster_.center());
+    paths.previous_normal.set(lane, previous.point.normal);
+    paths.previous_in_packet[lane] = previous.in_packet ? 1 : 0;
 }
 
 void PathWave::make_general(PathPacket& paths, std::size_t lane, const rays::Hit& hit) {

@@ -36,8 +36,6 @@ class PathWave {
     void follow(rays::Coherence coherence);
     void reflect(PathPacket& paths, LaneMask& lanes, rays::Coherence coherence);
     void reflect_plain(PathPacket& paths, LaneMask& lanes, ConnectionPacket& connections) const;
-    /// By LightSampler, one by one, with the next numbers of the streams.
-    void sample_lights(const PathPacket& paths, const LaneMask& lanes, LightPacket& light) const;
     void reflect_generally(PathPacket& paths, std::size_t lane, LaneMask& lanes,
                            ConnectionPacket& connections);
     void connect(const PathPacket& paths, ConnectionPacket& connections, rays::Coherence coherence);

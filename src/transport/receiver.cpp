@@ -22,15 +22,13 @@ const Material& white() {
 }  // namespace
 
 Receiver::Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster)
-    : normal_(point.normal),
-      surface_(white(), normal_, normal_),
+    : surface_(white(), point.normal, point.normal),
       outgoing_{0, 0, 1},
       factor_(Rgb::grey(kPi)),
       constant_response_(Rgb::grey(1)),
       reading_(reading) {
     const sensors::Place place = place_of(point, caster);
-    position_ = place.position;
-    lifted_ = place.lifted;
+    point_ = place;
     lift_ = place.lift;
 }
 
@@ -42,18 +40,15 @@ Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::Ray
       constant_response_(Rgb::grey(1)),
       reading_(reading) {
     const sensors::Place place = place_of(body, caster);
-    position_ = place.position;
-    lifted_ = place.lifted;
+    point_ = {place.position, {}, place.lifted};
     lift_ = place.lift;
     if (place.surface) horizon_ = place.surface->normal;
 }
 
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
-    : position_(sub_point.surface.position),
-      lifted_(sub_point.surface.lifted),
+    : point_(sub_point.surface),
       lift_(sub_point.surface.lift_m * sub_point.surface.normal),
-      normal_(sub_point.surface.normal),
-      surface_(material, normal_, sub_point.surface.shading_normal),
+      surface_(material, point_.normal, sub_point.surface.shading_normal),
       outgoing_(surface_.frame().to_local(sub_point.outgoing)),
       factor_(sub_point.transmission),
       material_(sub_point.surface.material),
@@ -77,7 +72,7 @@ Receiver Receiver::with_material(const Material& material) const {
 }
 
 double Receiver::sensitivity(const Vec3& direction) const {
-    if (!body_) return std::max(0.0, dot(direction, normal_));
+    if (!body_) return std::max(0.0, dot(direction, point_.normal));
     if (horizon_ && dot(direction, *horizon_) <= 0) return 0;
     return body_->of(surface_.frame().to_local(direction));
 }
@@ -108,7 +103,7 @@ double Receiver::pdf_per_sr(const Vec3& direction) const {
 
 Receiver Receiver::without_response() const {
     Receiver result = *this;
-    result.surface_ = {white(), normal_, normal_};
+    result.surface_ = {white(), point_.normal, point_.normal};
     result.outgoing_ = {0, 0, 1};
     result.factor_ = Rgb::grey(kPi);
     result.constant_response_ = Rgb::grey(1);
@@ -142,76 +137,6 @@ std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers) {
     sorted.reserve(receivers.size());
     for (const std::uint32_t i : order) sorted.push_back(receivers[i]);
     return sorted;
-}
-
-ReceivingPoint receiving_point(const Receiver& receiver) {
-    ReceivingPoint point{receiver.position(), std::nullopt};
-    if (squared_length(receiver.normal()) > 0) point.normal = receiver.normal();
-    return point;
-}
-
-Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster) {
-    const double sensitivity = receiver.sensitivity(light.direction);
-    if (sensitivity <= 0) return {};
-    return sensitivity * light.normal_illuminance_lx *
-           caster.transmittance({receiver.lifted(), light.source_point});
-}
-
-namespace {
-
-/// The emitters' light along a ray in proportion to the response; combined with samples of each light.
-Rgb sample_by_response(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
-                       math::SampleStream& stream, LightParts* parts) {
-    const auto [u1, u2] = stream.next_two();
-    const auto sample = receiver.sample(u1, u2);
-    if (!sample) return {};
-    const auto seen = caster.seen({receiver.lifted(), sample->direction});
-    const ReceivingPoint at = receiving_point(receiver);
-    Rgb sum;
-    const auto add = [&](const Rgb& emission, double light_pdf, std::size_t light) {
-        add_part(sample->weight * (seen.transmittance * emission) * balance(sample->pdf_per_sr, light_pdf),
-                 light, 0, sum, parts);
-    };
-    if (seen.hit) {
-        lights.for_each_emission(*seen.hit, -sample->direction, [&](std::size_t light, const Rgb& emission) {
-            add(emission, lights.extended_pdf_per_sr(light, *seen.hit, at), light);
-        });
-    } else if (const Rgb emission = lights.outside_luminance(sample->direction); emission.max() > 0) {
-        add(emission, lights.pdf_of_outside_light_per_sr(sample->direction, at), lights.light_from_outside());
-    }
-    return sum;
-}
-
-}  // namespace
-
-Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
-                       LightParts* parts) {
-    Rgb sum;
-    for (std::size_t i = 0; i < lights.count(); ++i) {
-        if (!lights.is_point(i)) continue;
-        if (const auto light = lights.sample_incident(i, receiving_point(receiver), {})) {
-            const Rgb received = illuminance_lx(*light, receiver, caster);
-            if (received.max() > 0)
-                add_part(received * receiver.response(light->direction).value, i, 0, sum, parts);
-        }
-    }
-    return sum;
-}
-
-Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
-                             const LightSampler& lights, math::SampleStream& stream, LightParts* parts) {
-    const bool directional = !receiver.constant_response();
-    Rgb sum;
-    lights.sample_extended(receiving_point(receiver), stream, [&](const IncidentLight& light) {
-        const Rgb received = illuminance_lx(light, receiver, caster);
-        if (!(received.max() > 0)) return;
-        const double weight =
-            directional ? balance(light.pdf_per_sr, receiver.pdf_per_sr(light.direction)) : 1;
-        add_part(received * receiver.response(light.direction).value * weight, light.light, 0, sum, parts);
-    });
-    if (directional && lights.has_visible_lights())
-        sum += sample_by_response(receiver, caster, lights, stream, parts);
-    return sum;
 }
 
 }  // namespace stilb::transport

@@ -38,12 +38,13 @@ class Receiver {
 
     std::uint32_t reading() const { return reading_; }
     void set_reading(std::uint32_t reading) { reading_ = reading; }
-    const Vec3& position() const { return position_; }
-    const Vec3& lifted() const { return lifted_; }  ///< where rays start
+    /// Where light arrives: in the open for a body, which has no surface normal.
+    const SurfacePoint& point() const { return point_; }
+    const Vec3& position() const { return point_.position; }
+    const Vec3& lifted() const { return point_.lifted; }
     /// Off the surface that the point lies on; 0 where it lies on none.
     const Vec3& lift() const { return lift_; }
-    /// 0 for a body, which has no surface normal.
-    const Vec3& normal() const { return normal_; }
+    const Vec3& normal() const { return point_.normal; }
     bool is_body() const { return body_ != nullptr; }
     /// The sensitivity for unit directions towards the incident light.
     double sensitivity(const Vec3& direction) const;
@@ -85,7 +86,8 @@ class Receiver {
   private:
     void set_constant_response();
 
-    Vec3 position_, lifted_, lift_, normal_;
+    SurfacePoint point_;
+    Vec3 lift_;
     materials::ShadedSurface surface_;  ///< its material is owned by the scene; white for illuminance
     const sensors::Sensitivity* body_ = nullptr;  ///< nothing on a surface
     /// Normal of the surface that a body lies on, which hides half of the sphere.
@@ -106,27 +108,5 @@ std::optional<Receiver> receiver_of_illuminance(std::uint32_t reading, const Mea
 /// neighbours in space share packets of rays. A packet is kPacketWidth of them from a multiple of
 /// kPacketWidth on. A reading may have several (several sub-points) or none.
 std::vector<Receiver> sorted_receivers(std::vector<Receiver> receivers);
-
-// Direct light at receivers, through panes too, integrated separately
-// [LocalEstimation 3].
-
-/// The receiver's place for lights: one without a normal receives light from all directions.
-ReceivingPoint receiving_point(const Receiver& receiver);
-
-/// A light's sample at a receiver, with its sensitivity and shadows, without its response. Direction and
-/// distance are those of the point itself; only the shadow ray starts lifted.
-Rgb illuminance_lx(const IncidentLight& light, const Receiver& receiver, const rays::RayCaster& caster);
-
-/// The light from all point lights at a receiver: exact, one shadow ray each. `parts`: may be null, here and
-/// below.
-Rgb direct_from_points(const Receiver& receiver, const rays::RayCaster& caster, const LightSampler& lights,
-                       LightParts* parts = nullptr);
-
-/// One sample of the light from all other lights at a receiver: each separately and, where the response
-/// depends on direction, all by a ray in proportion to the response as well, weighted by the balance
-/// heuristic.
-Rgb sample_direct_from_areas(const Receiver& receiver, const rays::RayCaster& caster,
-                             const LightSampler& lights, math::SampleStream& stream,
-                             LightParts* parts = nullptr);
 
 }  // namespace stilb::transport

@@ -47,8 +47,7 @@ VisibleLamp visible_lamp(const Light& light, const Scene& scene) {
 /// The part of light from infinity around a particle's direction that is about as bright: of a sun, the sun.
 VisibleLamp visible_part_of_outside(const EmittedParticle& particle, const LightSampler& lights) {
     constexpr double far_m = 1e9;
-    const double pdf_per_sr =
-        lights.pdf_of_outside_light_per_sr(-particle.direction, {particle.origin, std::nullopt});
+    const double pdf_per_sr = lights.pdf_of_outside_light_per_sr(-particle.direction, {particle.origin});
     return {far_m * far_m / pdf_per_sr, far_m};
 }
 

@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 
+#include "transport/light_sampler.h"
+
 namespace stilb::transport {
 namespace {
 
@@ -38,8 +40,8 @@ std::vector<Strength> by_strength(std::span<const double> weights, std::span<con
 /// The estimates of all lights over those of the lights that are not stronger than `most_lm`: as large as
 /// this or smaller on nine tenths of the first surfaces of a light; 1 where it meets none. A median would not
 /// do: where a strong light is on one side, half of the surfaces turn away from it.
-double largest_excess(std::size_t light, double most_lm, const LightsAtPoints& lights,
-                      const rays::RayCaster& caster) {
+double largest_excess(std::size_t light, double most_lm, const LightSampler& lights,
+                      std::span<const double> flux_lm, const rays::RayCaster& caster) {
     std::vector<double> excesses;
     for (std::uint64_t i = 0; i < kParticlesOfLight; ++i) {
         math::SampleStream stream(math::RandomKey{}, i);
@@ -47,11 +49,10 @@ double largest_excess(std::size_t light, double most_lm, const LightsAtPoints& l
         const auto hit = caster.closest(particle.origin, particle.direction);
         if (!hit) continue;
         double all_lx = 0, weak_lx = 0;
-        for (std::size_t other = 0; other < lights.count; ++other) {
-            const double rough_lx = lights.rough_lx(other, hit->position, hit->normal);
+        for (std::size_t other = 0; other < lights.count(); ++other) {
+            const double rough_lx = lights.rough_illuminance_lx(other, *hit);
             all_lx += rough_lx;
-            const double flux_lm = lights.flux_lm[other];
-            if (flux_lm > 0 && flux_lm <= most_lm) weak_lx += rough_lx;
+            if (flux_lm[other] > 0 && flux_lm[other] <= most_lm) weak_lx += rough_lx;
         }
         if (weak_lx > 0) excesses.push_back(all_lx / weak_lx);
     }
@@ -77,20 +78,22 @@ std::vector<double> emission_favours(std::span<const double> weights, std::span<
     return favours;
 }
 
-std::vector<double> choice_favours(const LightsAtPoints& lights, const rays::RayCaster& caster) {
-    std::vector<double> favours(lights.count, 1);
-    const std::vector<Strength> strengths = by_strength(lights.flux_lm, lights.flux_lm);
+std::vector<double> choice_favours(const LightSampler& lights, std::span<const double> flux_lm,
+                                   const rays::RayCaster& caster) {
+    std::vector<double> favours(lights.count(), 1);
+    const std::vector<Strength> strengths = by_strength(flux_lm, flux_lm);
     const std::size_t most_asked = std::clamp<std::size_t>(
-        kMostEstimates / (kParticlesOfLight * lights.count * std::max<std::size_t>(strengths.size(), 1)), 1,
+        kMostEstimates / (kParticlesOfLight * lights.count() * std::max<std::size_t>(strengths.size(), 1)), 1,
         kAsked);
     for (const Strength& strength : strengths) {
-        const bool is_weak = lights.has_outside || strengths.back().most > kComparable * strength.most;
+        const bool is_weak =
+            lights.has_light_from_outside() || strengths.back().most > kComparable * strength.most;
         if (!is_weak) break;
         const std::size_t asked = std::min(strength.lights.size(), most_asked);
         double excess = 1;
         for (std::size_t i = 0; i < asked; ++i) {
             const std::size_t light = strength.lights[i * strength.lights.size() / asked];
-            excess = std::max(excess, largest_excess(light, strength.most, lights, caster));
+            excess = std::max(excess, largest_excess(light, strength.most, lights, flux_lm, caster));
         }
         for (const std::size_t light : strength.lights) favours[light] = std::max(1.0, kWeakChoice * excess);
     }

@@ -3,15 +3,14 @@
 #pragma once
 
 #include <cstddef>
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "lights/light_kind.h"
-#include "math/random.h"
 #include "rays/ray_caster.h"
 
 namespace stilb::transport {
+
+class LightSampler;
 
 /// Factors of the lights' shares of emitted particles, so that those of each strength and all weaker ones
 /// together get about kWeakShare of them, or more. 1 for lights that are comparable with the strongest one.
@@ -21,20 +20,12 @@ inline std::vector<double> emission_favours(std::span<const double> weights) {
     return emission_favours(weights, weights);
 }
 
-/// The lights of a scene, as choice_favours() needs them.
-struct LightsAtPoints {
-    std::span<const double> flux_lm;  ///< 0 for lights that need no favour, such as light from infinity
-    /// A particle of a light.
-    std::function<lights::Emission(std::size_t light, math::SampleStream&)> emit;
-    /// Its estimated illuminance of a surface.
-    std::function<double(std::size_t light, const Vec3& position, const Vec3& normal)> rough_lx;
-    std::size_t count = 0;  ///< of all lights
-    bool has_outside = false;
-};
 /// Likewise where the light of each strength arrives: nine tenths of its first surfaces choose it, or one
 /// that is not stronger, with a probability of about kWeakChoice or more. Particles of some lights of each
-/// strength find these surfaces: surfaces that hide the stronger lights are not asked for.
-std::vector<double> choice_favours(const LightsAtPoints& lights, const rays::RayCaster& caster);
+/// strength find these surfaces: surfaces that hide the stronger lights are not asked for. `lights`: without
+/// favours so far. `flux_lm`: 0 for lights that need no favour, such as light from infinity.
+std::vector<double> choice_favours(const LightSampler& lights, std::span<const double> flux_lm,
+                                   const rays::RayCaster& caster);
 
 /// A fourth of the choices costs other lights little, because shadow rays are many, and the variance of their
 /// light grows by a third at most; light paths are dearer.

@@ -90,7 +90,7 @@ TEST_F(Furniture, NothingHidesWhatIsCertain) {
             math::SampleStream stream(key_.derived(2).derived(group), side);
             for (std::size_t i = 0; i < kPacketWidth; ++i) {
                 const transport::Receiver& receiver = receivers_[group * kPacketWidth + i];
-                const SidePoint point =
+                const SurfacePoint point =
                     side_point(patches(), caster_, side, math::sample_triangle(stream.next(), stream.next()));
                 const Vec3 to_side = point.position - receiver.position();
                 if (!(dot(to_side, receiver.normal()) > 1e-4 && dot(to_side, point.normal) < -1e-4)) continue;

@@ -229,7 +229,7 @@ TEST(FactorsOfLuminaires, FollowTheirDistribution) {
     const Illuminances illuminances(cube, 1024);
     RelativeErrors errors;
     for (std::uint32_t p = 0; p < cube.patches.count(); ++p) {
-        const auto light = cube.sampler.sample_incident(0, cube.middle(p), {});
+        const auto light = cube.sampler.sample_incident(0, {cube.middle(p)}, {});
         const Rgb exact = light->normal_illuminance_lx * dot(light->direction, cube.patches.normal_of(p));
         const Rgb found = illuminances.incoming.illuminance_lx(p);
         for (std::size_t band = 0; band < kBands; ++band) errors.add(found[band], exact[band]);

@@ -14,7 +14,7 @@ namespace {
 struct NotChosenEmitter {
     NotChosenEmitter(const auto&, const Surroundings&, const Lift&) {}
     Emission emit(math::SampleStream&) const { return {}; }
-    std::optional<IncidentLight> sample_incident(const ReceivingPoint&, const std::array<double, 2>&) const {
+    std::optional<IncidentLight> sample_incident(const SurfacePoint&, const std::array<double, 2>&) const {
         return std::nullopt;
     }
 };
@@ -27,7 +27,11 @@ struct OnNoSurface : PointLight {
 };
 static_assert(LightKind<PointLight> && LightKind<Luminaire> && LightKind<LuminousOpening> &&
               LightKind<AreaLight> && LightKind<EnvironmentLight>);
-static_assert(!LightKind<NotChosen> && !LightKind<OnNoSurface>);
+/// A point light that does not say which lights it is like.
+struct LikeNone : PointLight {
+    void shines_like(const LikeNone&) const {}
+};
+static_assert(!LightKind<NotChosen> && !LightKind<OnNoSurface> && !LightKind<LikeNone>);
 
 /// One light of each place.
 Scene three_lights() {
@@ -58,6 +62,28 @@ TEST(Light, IsAtOnePlace) {
     EXPECT_EQ(uniform_emission(area)->object, ObjectId{0});
     EXPECT_EQ(uniform_emission(area)->luminance_cd_m2, Rgb::grey(5));
     EXPECT_FALSE(uniform_emission(point) || uniform_emission(environment));
+}
+
+TEST(Light, ShinesLikeOthersOfItsKindAndDirections) {
+    Scene scene = three_lights();
+    const Light &point = scene.lights[0], &area = scene.lights[1];
+    EXPECT_EQ(point_origin(point)->intensity_cd, std::optional(Rgb{{1, 2, 3}}));
+    EXPECT_TRUE(shine_alike(point, {"", PointLight{{4, 5, 6}, Rgb::grey(1)}}));
+    EXPECT_FALSE(shine_alike(point, area));
+    Luminaire luminaire{{0, 0, 2}, SolidId{0}, {1, 0, 0}, {0, -1, 0}, {0, 0, -1}, Rgb::grey(1)};
+    const Light down{"", luminaire}, opening{"", LuminousOpening{ObjectId{0}, luminaire}};
+    luminaire.position = {3, 0, 2};
+    EXPECT_TRUE(shine_alike(down, {"", luminaire}));
+    EXPECT_FALSE(point_origin(down)->intensity_cd);
+    EXPECT_TRUE(shine_alike(opening, {"", LuminousOpening{ObjectId{1}, luminaire}}));
+    EXPECT_FALSE(shine_alike(down, opening));
+    luminaire.nadir = {0, 0, 1};
+    EXPECT_FALSE(shine_alike(down, {"", luminaire}));
+    EXPECT_FALSE(shine_alike(opening, {"", LuminousOpening{ObjectId{0}, luminaire}}));
+    EXPECT_EQ(opening_of(opening), ObjectId{0});
+    EXPECT_FALSE(opening_of(down) || opening_of(area) || opening_of(point));
+    EXPECT_TRUE(luminaire_of(down) && luminaire_of(opening));
+    EXPECT_FALSE(luminaire_of(area) || luminaire_of(point) || luminaire_of(scene.lights[2]));
 }
 
 TEST(Light, SaysWhatItIs) {

@@ -82,11 +82,10 @@ TEST(LuminousOpening, HasTheIntensityOfItsFileAtADistance) {
             double sum = 0;
             for (std::uint64_t i = 0; i < kSamples; ++i) {
                 math::SampleStream stream(math::RandomKey{}, i);
-                const auto light = opening.sample_incident({at, std::nullopt}, stream.next_two());
+                const auto light = opening.sample_incident({at}, stream.next_two());
                 if (light) sum += light->normal_illuminance_lx.luminance() / kSamples;
             }
-            const double exact =
-                point.sample_incident({at, std::nullopt}, {})->normal_illuminance_lx.luminance();
+            const double exact = point.sample_incident({at}, {})->normal_illuminance_lx.luminance();
             EXPECT_NEAR(sum / exact, 1, 2e-3) << c.name << ", gamma " << gamma;
         }
     }

@@ -12,7 +12,7 @@
 namespace stilb::lights {
 namespace {
 
-double exact_sr(const Shape& shape, const LitPoint& at) {
+double exact_sr(const Shape& shape, const SurfacePoint& at) {
     const exact::Receiver receiver{at.position, at.normal};
     if (const auto* r = std::get_if<Rectangle>(&shape))
         return exact::illuminance_by_rectangle_lx(receiver, r->corner, r->edge_u, r->edge_v, 1);
@@ -62,7 +62,7 @@ std::vector<ProjectedCase> random_cases(math::RandomKey key) {
 }
 
 /// Whether the ray through a point of the whole meets the part.
-bool is_in(const Shape& part, const LitPoint& at, const Vec3& point) {
+bool is_in(const Shape& part, const SurfacePoint& at, const Vec3& point) {
     if (const auto* d = std::get_if<Disk>(&part)) return length(point - d->center) <= d->radius;
     if (const auto* s = std::get_if<Sphere>(&part)) {
         const Vec3 direction = normalized(point - at.position), towards = s->center - at.position;
@@ -87,7 +87,7 @@ TEST(ProjectedSolidAngle, AgreesWithTheExactFactors) {
         ASSERT_TRUE(has_closed_form(element));
         for (std::uint64_t i = 0; i < 200; ++i) {
             math::SampleStream stream(math::RandomKey{2}.derived(c), i, 0);
-            const LitPoint at{3 * random_vector(stream), random_direction(stream)};
+            const SurfacePoint at{3 * random_vector(stream), random_direction(stream)};
             if (const auto* s = std::get_if<Sphere>(&cases[c].whole);
                 s && length(at.position - s->center) <= s->radius)
                 continue;
@@ -110,7 +110,7 @@ TEST(ProjectedSolidAngle, SamplesAreUniform) {
         const EmitterElement element = emitter_elements(cases[c].whole).front();
         for (std::uint64_t place = 0; place < 20; ++place) {
             math::SampleStream placing(math::RandomKey{4}.derived(c), place, 0);
-            const LitPoint at{2 * random_vector(placing), random_direction(placing)};
+            const SurfacePoint at{2 * random_vector(placing), random_direction(placing)};
             if (const auto* s = std::get_if<Sphere>(&cases[c].whole);
                 s && length(at.position - s->center) <= s->radius)
                 continue;

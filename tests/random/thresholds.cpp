@@ -5,7 +5,7 @@ namespace stilb::random {
 std::span<const Threshold> thresholds() {
     static constexpr Threshold list[] = {
         // Numbers of lamps.
-        {"kFew", "src/transport/light_sampler.h", "32", "lamps: all of them are weighed, or a tree chooses",
+        {"kFew", "src/transport/light_choice.h", "32", "lamps: all of them are weighed, or a tree chooses",
          "scenes with 31, 32, 33 and 34 lamps of each kind; tests/run/many_lamps_test.cpp"},
         {"kMost", "src/transport/lane_lights.h", "32", "lamps: sixteen lanes at a time, or one by one",
          "scenes with 31, 32 and 33 lamps; tests/run/many_lamps_test.cpp"},

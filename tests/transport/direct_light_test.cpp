@@ -9,6 +9,7 @@
 #include "lights/opening_shape.h"
 #include "materials/thin_dielectric.h"
 #include "support/scene_builder.h"
+#include "transport/direct/one_receiver.h"
 
 namespace stilb::transport {
 namespace {

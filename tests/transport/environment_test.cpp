@@ -99,18 +99,18 @@ TEST(EnvironmentIncident, OfConstantLuminanceIsExactOnAnyPlane) {
     add_environment(scene, Rgb::grey(30));
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    const ReceivingPoint at{{1, 1, 1}, normalized(Vec3{1, -2, 0.5})};
+    const SurfacePoint at{{1, 1, 1}, normalized(Vec3{1, -2, 0.5})};
     for (std::uint64_t i = 0; i < 64; ++i) {
         math::SampleStream stream(math::RandomKey{1}, i);
         const auto light = lights.sample_incident(0, at, stream.next_two());
         ASSERT_TRUE(light);
-        const double cosine = dot(light->direction, *at.normal);
+        const double cosine = dot(light->direction, at.normal);
         EXPECT_NEAR(cosine * light->normal_illuminance_lx.luminance(), kPi * 30, 1e-9);
         EXPECT_NEAR(light->pdf_per_sr, lights.pdf_of_outside_light_per_sr(light->direction, at), 1e-12);
     }
     // Received from all around, without a normal: 4 pi L.
     const auto around = [&](math::SampleStream& stream) {
-        return lights.sample_incident(0, at.position, stream.next_two())->normal_illuminance_lx.luminance();
+        return lights.sample_incident(0, {at.position}, stream.next_two())->normal_illuminance_lx.luminance();
     };
     EXPECT_NEAR(mean_of(around).value, 4 * kPi * 30, 1e-9);
 }
@@ -173,11 +173,11 @@ TEST(EnvironmentIncident, OneOfAllLightsHasTheDensityThatIsSaid) {
     const Vec3 from{1, 1, 0.6}, normal{0, 0.6, 0.8};
     int outside = 0;
     const auto received = [&](math::SampleStream& stream) {
-        const auto light = lights.sample_one_light(from, normal, stream);
+        const auto light = lights.sample_one_light({from, normal}, stream);
         if (!light) return 0.0;
         if (length(light->source_point - from) > 2.5) {
             ++outside;
-            EXPECT_NEAR(light->pdf_per_sr, lights.outside_pdf_per_sr(light->direction, from, normal),
+            EXPECT_NEAR(light->pdf_per_sr, lights.outside_pdf_per_sr(light->direction, {from, normal}),
                         1e-9 * light->pdf_per_sr);
         }
         return std::max(dot(light->direction, normal), 0.0) * light->normal_illuminance_lx.luminance();

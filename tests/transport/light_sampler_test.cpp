@@ -27,7 +27,7 @@ void expect_illuminance(const Shape& shape, const exact::Receiver& receiver, dou
         statistics::RunningMoments moments;
         for (std::uint64_t i = 0; i < 1024; ++i) {
             math::SampleStream stream(math::RandomKey{replicate}, i);
-            const auto incident = lights.sample_incident(0, receiver.position, stream.next_two());
+            const auto incident = lights.sample_incident(0, {receiver.position}, stream.next_two());
             double lx = 0;
             if (incident) {
                 const double cosine = std::max(0.0, dot(incident->direction, receiver.normal));
@@ -54,8 +54,8 @@ TEST(ExtendedLights, OfManySomeStandForAll) {
     add_point_light(scene, {2, 2, 1.5}, kWhiteLamp);  // has no extent
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    const ReceivingPoint oriented{{1.3, 0.8, 0.5}, Vec3{0.6, 0, 0.8}}, free{{1.3, 0.8, 0.5}, std::nullopt};
-    const auto mean_lx = [&](const ReceivingPoint& at) {
+    const SurfacePoint oriented{{1.3, 0.8, 0.5}, Vec3{0.6, 0, 0.8}}, free{{1.3, 0.8, 0.5}};
+    const auto mean_lx = [&](const SurfacePoint& at) {
         std::vector<double> means;
         for (std::uint64_t replicate = 0; replicate < 32; ++replicate) {
             statistics::RunningMoments moments;
@@ -63,7 +63,7 @@ TEST(ExtendedLights, OfManySomeStandForAll) {
                 math::SampleStream stream(math::RandomKey{replicate}, i);
                 double lx = 0;
                 lights.sample_extended(at, stream, [&](const IncidentLight& light) {
-                    lx += std::max(0.0, dot(light.direction, *oriented.normal)) *
+                    lx += std::max(0.0, dot(light.direction, oriented.normal)) *
                           light.normal_illuminance_lx.luminance();
                 });
                 moments.add(lx);
@@ -87,7 +87,7 @@ TEST(ExtendedLights, HaveTheDensityThatTheyAreSampledWith) {
     }
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
-    const ReceivingPoint at{{1.3, 0.8, 0.5}, Vec3{0, 0, 1}};
+    const SurfacePoint at{{1.3, 0.8, 0.5}, Vec3{0, 0, 1}};
     for (std::uint64_t i = 0; i < 16; ++i) {
         math::SampleStream stream(math::RandomKey{2}, i);
         lights.sample_extended(at, stream, [&](const IncidentLight& light) {
@@ -109,18 +109,18 @@ TEST(IncidentLight, LeavesOutWhatIsMadeElsewhere) {
     const Vec3 from{1, 0.5, 0}, up{0, 0, 1};
     for (std::uint64_t i = 0; i < 16; ++i) {
         math::SampleStream stream(math::RandomKey{1}, i);
-        const auto light = rest.sample_one_light(from, up, stream);
+        const auto light = rest.sample_one_light({from, up}, stream);
         ASSERT_TRUE(light);
         EXPECT_GT(light->source_point.x, 2);
-        EXPECT_FALSE(none.sample_one_light(from, up, stream));
+        EXPECT_FALSE(none.sample_one_light({from, up}, stream));
     }
     const auto left_out = caster.closest(from, normalized(Vec3{-0.5, 0, 3}));
     const auto kept = caster.closest(from, normalized(Vec3{1.5, 0, 3}));
     ASSERT_TRUE(left_out && kept);
-    EXPECT_TRUE(std::isinf(rest.pdf_per_sr(0, *left_out, from, up)));
-    const double kept_pdf = rest.pdf_per_sr(1, *kept, from, up);
+    EXPECT_TRUE(std::isinf(rest.pdf_per_sr(0, *left_out, {from, up})));
+    const double kept_pdf = rest.pdf_per_sr(1, *kept, {from, up});
     EXPECT_GT(kept_pdf, 0);
-    EXPECT_EQ(kept_pdf, rest.pdf_of_its_light_per_sr(1, *kept, from));
+    EXPECT_EQ(kept_pdf, rest.pdf_of_its_light_per_sr(1, *kept, {from}));
 }
 
 TEST(IncidentLight, OfShapesIsThatOfConfigurationFactors) {
@@ -146,7 +146,7 @@ TEST(IncidentLight, OfAPointIsExact) {
     Scene scene;
     add_point_light(scene, {1, 2, 3}, 50 * kWhiteLamp);
     const rays::RayCaster caster(scene);
-    const auto incident = LightSampler(scene, caster).sample_incident(0, Vec3{0, 0, 0}, {});
+    const auto incident = LightSampler(scene, caster).sample_incident(0, {}, {});
     ASSERT_TRUE(incident);
     EXPECT_NEAR(incident->normal_illuminance_lx.luminance(), 50.0 / 14, 1e-12);
 }
@@ -169,7 +169,7 @@ TEST(IncidentLight, OfOneChosenLightIsThatOfAll) {
         statistics::RunningMoments moments;
         for (std::uint64_t i = 0; i < 1024; ++i) {
             math::SampleStream stream(math::RandomKey{replicate}, i);
-            const auto light = lights.sample_one_light(receiver.position, receiver.normal, stream);
+            const auto light = lights.sample_one_light({receiver.position, receiver.normal}, stream);
             moments.add(light ? std::max(0.0, light->direction.z) * light->normal_illuminance_lx.luminance()
                               : 0);
         }
@@ -203,13 +203,13 @@ TEST(IncidentLight, OfSomeLightsIsThatOfAll) {
             };
             math::SampleStream stream(math::RandomKey{i}, 0);
             double sum_lx = 0;
-            lights.sample_some_lights(receiver.position, receiver.normal, kSamples, stream,
+            lights.sample_some_lights({receiver.position, receiver.normal}, kSamples, stream,
                                       [&](const IncidentLight& light) { sum_lx += received_lx(light); });
             spread.add(sum_lx);
             sum_lx = 0;
             for (std::uint32_t k = 0; k < kSamples; ++k) {
                 math::SampleStream single(math::RandomKey{i}.derived(1 + k), 0);  // independent
-                const auto light = lights.sample_one_light(receiver.position, receiver.normal, single);
+                const auto light = lights.sample_one_light({receiver.position, receiver.normal}, single);
                 if (light) sum_lx += received_lx(*light) / kSamples;
             }
             apart.add(sum_lx);
@@ -235,13 +235,13 @@ TEST(IncidentLight, DensityIsAboutThatOfRaysThatMeetTheEmitter) {
     constexpr std::uint64_t kSamples = 4096;
     for (std::uint64_t i = 0; i < kSamples; ++i) {
         math::SampleStream stream(math::RandomKey{3}, i);
-        const auto light = lights.sample_one_light(from, normal, stream);
+        const auto light = lights.sample_one_light({from, normal}, stream);
         if (!light || std::isinf(light->pdf_per_sr)) continue;
         const auto hit = caster.closest(from, light->direction);
         ASSERT_TRUE(hit);
         if (length(hit->lifted - light->source_point) > 1e-3) continue;  // something stands before it
         ++met[index_of(hit->object)];
-        const double pdf = lights.pdf_per_sr(index_of(hit->object), *hit, from, normal);
+        const double pdf = lights.pdf_per_sr(index_of(hit->object), *hit, {from, normal});
         EXPECT_NEAR(pdf, light->pdf_per_sr, 1e-6 * pdf) << index_of(hit->object);
         // Light times the true density is the luminance; this one is about the truth.
         const double ratio =

@@ -53,25 +53,36 @@ double rough_lx(const LightTree::Light& light, const Vec3& from, const Vec3& nor
     return light.intensity_cd * std::max(dot(towards, normal), 0.0) / std::pow(length(towards), 3);
 }
 
+/// The view of a surface element.
+struct ElementView {
+    const std::vector<LightTree::Light>& lights;
+    SurfacePoint at;
+    double nearness(const LightTree::Node& node) const { return LightTree::nearness_of(node, at.position); }
+    double estimate_lx(const LightTree::Node& node) const {
+        return node.is_point ? rough_lx(lights[node.first], at.position, at.normal)
+                             : LightTree::box_lx(node, at);
+    }
+};
+
 TEST(LightTree, LightsAreChosenWithTheProbabilityThatIsSaid) {
     constexpr int kLights = 300;
     const std::vector<LightTree::Light> lights = leaves(kLights);
     const LightTree tree(lights);
     for (const Vec3& from : {Vec3{3, 2, 1}, Vec3{-30, 2, 1}}) {  // among them, and far away
         const Vec3 normal = normalized(Vec3{0.5, 0.2, 1});
-        const auto rough = [&](std::uint32_t number) { return rough_lx(lights[number], from, normal); };
-        const LightTree::Cut cut = tree.cut(from, normal, rough);
+        const ElementView view{lights, {from, normal}};
+        const LightTree::Cut cut = tree.cut(view);
         std::vector<double> probability, observed(kLights), remainders;
         double sum = 0;
         for (std::uint32_t light = 0; light < kLights; ++light) {
-            probability.push_back(tree.probability(cut, light, from, normal, rough));
+            probability.push_back(tree.probability(cut, light, view));
             sum += probability.back();
-            EXPECT_TRUE(probability.back() > 0 || rough(light) == 0) << light;
+            EXPECT_TRUE(probability.back() > 0 || rough_lx(lights[light], from, normal) == 0) << light;
         }
         EXPECT_NEAR(sum, 1, 1e-12);
         for (std::uint64_t i = 0; i < kSamples; ++i) {
             const double u = math::SampleStream(math::RandomKey{2}.derived(i), 0).next();
-            const math::DiscreteChoice choice = tree.choose(cut, from, normal, u, rough);
+            const math::DiscreteChoice choice = tree.choose(cut, view, u);
             ASSERT_NEAR(choice.probability, probability[choice.index], 1e-9);
             ++observed[choice.index];
             remainders.push_back(choice.remainder);
@@ -96,12 +107,11 @@ TEST(LightTree, GivesNothingBehindTheSurface) {
     const LightTree tree(lights);
     const Vec3 from{0, 0, 4}, up{0, 0, 1};
     const auto total_lx = [&](const Vec3& normal) {
-        return tree.cut(from, normal, [&](std::uint32_t i) { return rough_lx(lights[i], from, normal); })
-            .total_lx();
+        return tree.cut(ElementView{lights, {from, normal}}).total_lx();
     };
     EXPECT_EQ(total_lx(up), 0);
     EXPECT_GT(total_lx(-up), 0);
-    EXPECT_EQ(LightTree().cut(from, up, [](std::uint32_t) { return 1.0; }).total_lx(), 0);
+    EXPECT_EQ(LightTree().cut(ElementView{lights, {from, up}}).total_lx(), 0);
 }
 
 /// One light of many, divided by its probability, against all of them.
@@ -124,7 +134,7 @@ TEST(ManyLights, OneThatIsChosenIsAllOfThem) {
                 constexpr std::uint64_t kPoints = 1024;
                 for (std::uint64_t i = 0; i < kPoints; ++i) {
                     math::SampleStream stream(math::RandomKey{replicate}, i);
-                    const auto light = lights.sample_one_light(from, normal, stream);
+                    const auto light = lights.sample_one_light({from, normal}, stream);
                     sum_of_one += lit(light) / kPoints;
                 }
                 constexpr std::uint64_t kFew = 64;
@@ -154,17 +164,17 @@ TEST(ManyLights, TheDensityOfAnEmitterIsThatOfItsSamples) {
     int emitters = 0, sky = 0;
     for (std::uint64_t i = 0; i < 4096; ++i) {
         math::SampleStream stream(math::RandomKey{3}, i);
-        const auto light = lights.sample_one_light(from, normal, stream);
+        const auto light = lights.sample_one_light({from, normal}, stream);
         if (!light || std::isinf(light->pdf_per_sr)) continue;
         const auto hit = caster.closest(from, light->direction);
         if (!hit) {
             ++sky;
-            EXPECT_NEAR(lights.outside_pdf_per_sr(light->direction, from, normal), light->pdf_per_sr,
+            EXPECT_NEAR(lights.outside_pdf_per_sr(light->direction, {from, normal}), light->pdf_per_sr,
                         1e-9 * light->pdf_per_sr);
         } else if (length(hit->lifted - light->source_point) < 1e-3) {
             ++emitters;
             lights.for_each_emission(*hit, -light->direction, [&](std::size_t own, const Rgb&) {
-                EXPECT_NEAR(lights.pdf_per_sr(own, *hit, from, normal), light->pdf_per_sr,
+                EXPECT_NEAR(lights.pdf_per_sr(own, *hit, {from, normal}), light->pdf_per_sr,
                             1e-6 * light->pdf_per_sr);
             });
         }

@@ -174,8 +174,7 @@ TEST(LaneLights, AgreeWithLightSampler) {
             const double cosine = std::max(0.0, dot(light.direction.at(i), points[i].normal));
             of_lanes[i].add(cosine * light.normal_illuminance_lx[0][i]);
             math::SampleStream stream({100 + i}, n, 0);
-            const auto incident =
-                traced.lights.sample_one_light(points[i].position, points[i].normal, stream);
+            const auto incident = traced.lights.sample_one_light(points[i], stream);
             of_points[i].add(incident ? std::max(0.0, dot(incident->direction, points[i].normal)) *
                                             incident->normal_illuminance_lx[0]
                                       : 0);
@@ -189,34 +188,44 @@ TEST(LaneLights, AgreeWithLightSampler) {
     }
 }
 
-/// The density of a sampled direction is the one that MIS weights get for it.
-TEST(LaneLights, HaveOneDensity) {
-    Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.6));
-    add_area_light(scene, panel({1.2, 1.1, 2.9}, 0.6, 0.5), 100 * kWhite);
-    add_area_light(scene, panel({0.2, 0.1, 2.8}, 0.3, 1.5), 100 * kWhite);
-    const Traced traced(scene);
-    const auto lanes = LaneLights::of(scene, traced.caster.lift(), traced.lights);
-    rays::SurfacePacket at{};
-    std::size_t lane = 0;
-    for (const Path& path : traced.paths({5}, 0, kPacketWidth))
-        at.set(lane++, path.hit, traced.caster.center());
-    math::StreamPacket streams;
-    for (std::size_t i = 0; i < kPacketWidth; ++i) streams.set(i, math::SampleStream({9 + i}, 0, 0));
-    int compared = 0;
-    for (int n = 0; n < 100; ++n) {
-        LightPacket light;
-        lanes->sample(at, next_four(streams, 0), light);
-        for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            if (!(light.inverse_pdf_sr[i] > 0)) continue;
-            const bool is_first = light.source.z[i] > 1.35f;  // relative to the centre
-            const float pdf_per_sr =
-                lanes->pdf_per_sr(is_first ? 0 : 1, light.source.at(i), at.position.at(i), at.normal.at(i));
-            EXPECT_NEAR(pdf_per_sr * light.inverse_pdf_sr[i], 1, 1e-3);
-            ++compared;
+/// The density of a sampled direction is the one that MIS weights get for it: where all lanes are sampled at
+/// once, and where a lamp is a ball.
+TEST(PacketLights, HaveOneDensity) {
+    for (const bool has_ball : {false, true}) {
+        Scene scene;
+        add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.6));
+        add_area_light(scene, panel({1.2, 1.1, 2.9}, 0.6, 0.5), 100 * kWhite);
+        if (has_ball)
+            add_area_light(scene, Sphere{{0.5, 0.8, 2.6}, 0.2}, 100 * kWhite);
+        else
+            add_area_light(scene, panel({0.2, 0.1, 2.8}, 0.3, 1.5), 100 * kWhite);
+        const Traced traced(scene);
+        const PacketLights lights(scene, traced.caster, traced.lights);
+        rays::SurfacePacket at{};
+        std::vector<rays::Hit> points;
+        for (const Path& path : traced.paths({5}, 0, kPacketWidth)) {
+            at.set(points.size(), path.hit, traced.caster.center());
+            points.push_back(path.hit);
         }
+        math::StreamPacket streams;
+        for (std::size_t i = 0; i < kPacketWidth; ++i) streams.set(i, math::SampleStream({9 + i}, 0, 0));
+        LaneMask all;
+        all.fill(-1);
+        int compared = 0;
+        for (int n = 0; n < 100; ++n) {
+            LightPacket light{};
+            lights.sample(at, all, streams, 0, light);
+            for (std::size_t i = 0; i < kPacketWidth; ++i) {
+                if (!(light.normal_illuminance_lx[0][i] > 0)) continue;
+                const auto hit = traced.caster.closest(points[i].lifted, normalized(light.direction.at(i)));
+                if (!hit || hit->object != *lights::emitting_object(scene.lights[light.light[i]])) continue;
+                const double pdf_per_sr = lights.pdf_per_sr(light.light[i], *hit, points[i]);
+                EXPECT_NEAR(pdf_per_sr * light.inverse_pdf_sr[i], 1, 2e-3) << has_ball;
+                ++compared;
+            }
+        }
+        EXPECT_GT(compared, 500) << has_ball;
     }
-    EXPECT_GT(compared, 500);
 }
 
 TEST(LaneLights, LeaveOtherLightsToLightSampler) {

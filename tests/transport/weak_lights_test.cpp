@@ -48,8 +48,8 @@ double share_of_first(const Scene& scene) {
     const rays::RayCaster caster(scene);
     const LightSampler lights(scene, caster);
     const Vec3 floor{0, 0, -1}, up{0, 0, 1};
-    const double own = lights.rough_illuminance_lx(0, floor, up);
-    return own / (own + lights.rough_illuminance_lx(1, floor, up));
+    const double own = lights.rough_illuminance_lx(0, {floor, up});
+    return own / (own + lights.rough_illuminance_lx(1, {floor, up}));
 }
 
 TEST(ChoiceFavours, GiveWeakLightsAShareWhereTheyShine) {

@@ -23,7 +23,7 @@ LightOfLamps light_at(const Scene& scene, const Vec3& position, const Vec3& norm
     const rays::RayCaster caster(scene);
     const DirectLight direct(scene, caster);
     LightOfLamps light{std::vector<float>(direct.count())};
-    light.error_lx = std::sqrt(direct.add({position, position + 1e-5 * normal, normal}, 1, light.lx));
+    light.error_lx = std::sqrt(direct.add({position, normal, position + 1e-5 * normal}, 1, light.lx));
     return light;
 }
 

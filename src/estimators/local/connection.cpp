@@ -101,12 +101,10 @@ ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3&
     const auto* diffuse = is_smooth ? nullptr : node.material->get_if<Diffuse>();
     const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
-    ConnectedVertex result{{SegmentOrigin(node.position, node.lifted, node.normal, center),
-                            node.only_by_light || !diffuse ? 0.0f : 1.0f,
-                            {},
-                            node.shares},
-                           &node,
-                           diffuse == nullptr};
+    ConnectedVertex result{
+        {SegmentOrigin(node, center), node.only_by_light || !diffuse ? 0.0f : 1.0f, {}, node.shares},
+        &node,
+        diffuse == nullptr};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
     return result;
 }

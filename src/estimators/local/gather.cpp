@@ -24,8 +24,7 @@ class SharedPoint {
                 const Vec3& center)
         : surface_(material, hit.normal, hit.shading_normal), position_(hit.position), tile_(tile) {
         // There is at least one reflection, at y.
-        connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, center), 1, tile, segments_, lanes_,
-                g_per_m2_);
+        connect(SegmentOrigin(hit, center), 1, tile, segments_, lanes_, g_per_m2_);
         for_each_lane([&](std::size_t i) {
             if (tile.reflections_left[i] == tile.reflections_left[own]) {
                 const auto [value, relative] = response_to_y(i);

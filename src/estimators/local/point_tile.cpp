@@ -114,9 +114,8 @@ std::vector<PointTile> tiles_of(std::span<const transport::Receiver> receivers,
     return tiles;
 }
 
-SegmentOrigin::SegmentOrigin(const Vec3& position, const Vec3& lifted_position, const Vec3& normal,
-                             const Vec3& center) {
-    const Vec3 p = position - center, lifted = lifted_position - center;
+SegmentOrigin::SegmentOrigin(const SurfacePoint& at, const Vec3& center) {
+    const Vec3 p = at.position - center, lifted = at.lifted - center, &normal = at.normal;
     x = static_cast<float>(p.x), y = static_cast<float>(p.y), z = static_cast<float>(p.z);
     lifted_x = static_cast<float>(lifted.x), lifted_y = static_cast<float>(lifted.y),
     lifted_z = static_cast<float>(lifted.z);

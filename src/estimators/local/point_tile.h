@@ -50,7 +50,7 @@ struct SegmentOrigin {
     float lifted_x = 0, lifted_y = 0, lifted_z = 0;
     float normal_x = 0, normal_y = 0, normal_z = 0;
 
-    SegmentOrigin(const Vec3& position, const Vec3& lifted, const Vec3& normal, const Vec3& center);
+    SegmentOrigin(const SurfacePoint& at, const Vec3& center);
 };
 
 /// Prepares the segments from `origin`, for light after so many reflections, to a tile's points, and G =

@@ -145,8 +145,7 @@ double own_share(const rays::RayCaster& caster, const rays::Hit& hit, const Poin
     RayPacket segments;
     LaneMask lanes;
     PointTile::Floats g_per_m2;
-    connect(SegmentOrigin(hit.position, hit.lifted, hit.normal, caster.center()), 1, packet, segments, lanes,
-            g_per_m2);
+    connect(SegmentOrigin(hit, caster.center()), 1, packet, segments, lanes, g_per_m2);
     const double sum = std::accumulate(g_per_m2.begin(), g_per_m2.end(), 0.0);
     return sum > 0 ? double{g_per_m2[lane]} / sum : 1;
 }

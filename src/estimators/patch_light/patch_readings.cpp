@@ -5,7 +5,7 @@
 #include <iterator>
 #include <limits>
 
-#include "transport/receiver.h"
+#include "transport/direct/one_receiver.h"
 
 namespace stilb::estimators {
 

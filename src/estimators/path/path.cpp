@@ -18,9 +18,9 @@
 #include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/first_shot.h"
 #include "materials/diffuse.h"
+#include "transport/direct/one_receiver.h"
 #include "transport/light_path.h"
 #include "transport/path_tracer.h"
-#include "transport/receiver.h"
 
 namespace stilb::estimators {
 

@@ -112,8 +112,7 @@ std::vector<Surface> surfaces_of(const Scene& scene, Identifiers& identifiers, O
     for (const Light& light : scene.lights) {
         if (const auto emission = lights::uniform_emission(light))
             luminances[emission->object] = emission->luminance_cd_m2;
-        if (const auto* luminaire = std::get_if<LuminousOpening>(&light.source))
-            openings.insert(luminaire->object);
+        if (const auto opening = lights::opening_of(light)) openings.insert(*opening);
     }
     std::vector<Surface> surfaces;
     Division division(surfaces, identifiers, output);

@@ -173,10 +173,8 @@ class ObjectTable {
 
 /// The openings of luminaires come with their lights.
 bool is_opening(const Scene& scene, ObjectId id) {
-    return std::ranges::any_of(scene.lights, [&](const Light& light) {
-        const auto* const opening = std::get_if<LuminousOpening>(&light.source);
-        return opening != nullptr && opening->object == id;
-    });
+    return std::ranges::any_of(scene.lights,
+                               [&](const Light& light) { return lights::opening_of(light) == id; });
 }
 
 bool is_written(const Scene& scene, ObjectId id) {

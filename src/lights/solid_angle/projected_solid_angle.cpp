@@ -23,13 +23,13 @@ bool sees_front(const Vec3& to_point, const Vec3& normal) {
     return dot(to_point, normal) < -kInPlane * length(to_point);
 }
 
-SeenPolygon seen(const Rectangle& r, const LitPoint& at, const Frame& frame) {
+SeenPolygon seen(const Rectangle& r, const SurfacePoint& at, const Frame& frame) {
     // The front's order, reversed: from the receiver's side.
     const Vec3 corner = frame.to_local(r.corner - at.position);
     const Vec3 u = frame.to_local(r.edge_u), v = frame.to_local(r.edge_v);
     return SeenPolygon(std::array{corner, corner + v, corner + u + v, corner + u});
 }
-SeenPolygon seen(const std::array<Vec3, 3>& t, const LitPoint& at, const Frame& frame) {
+SeenPolygon seen(const std::array<Vec3, 3>& t, const SurfacePoint& at, const Frame& frame) {
     return SeenPolygon(std::array{frame.to_local(t[0] - at.position), frame.to_local(t[2] - at.position),
                                   frame.to_local(t[1] - at.position)});
 }
@@ -38,7 +38,7 @@ const Vec3& corner_of(const Rectangle& r) { return r.corner; }
 const Vec3& corner_of(const std::array<Vec3, 3>& t) { return t[0]; }
 
 template <typename Polygon>
-double polygon_sr(const Polygon& polygon, const Vec3& normal, const LitPoint& at) {
+double polygon_sr(const Polygon& polygon, const Vec3& normal, const SurfacePoint& at) {
     if (!sees_front(corner_of(polygon) - at.position, normal)) return 0;
     return seen(polygon, at, Frame::around(at.normal)).projected_solid_angle_sr();
 }
@@ -49,8 +49,8 @@ Vec3 in_plane(const Vec3& from, const Vec3& direction, const Vec3& corner, const
 }
 
 template <typename Polygon>
-std::optional<ProjectedSample> sample_polygon(const Polygon& polygon, const Vec3& normal, const LitPoint& at,
-                                              math::SampleStream& stream) {
+std::optional<ProjectedSample> sample_polygon(const Polygon& polygon, const Vec3& normal,
+                                              const SurfacePoint& at, math::SampleStream& stream) {
     const auto [u1, u2] = stream.next_two();
     if (!sees_front(corner_of(polygon) - at.position, normal)) return std::nullopt;
     const Frame frame = Frame::around(at.normal);
@@ -62,12 +62,12 @@ std::optional<ProjectedSample> sample_polygon(const Polygon& polygon, const Vec3
 }
 
 std::optional<ProjectedSample> sample_flat(const std::array<Vec3, 3>& triangle, const Vec3& normal,
-                                           const LitPoint& at, math::SampleStream& stream) {
+                                           const SurfacePoint& at, math::SampleStream& stream) {
     return sample_polygon(triangle, normal, at, stream);
 }
 
 /// Along the edges where all of it is above the horizon.
-std::optional<ProjectedSample> sample_flat(const Rectangle& r, const Vec3& normal, const LitPoint& at,
+std::optional<ProjectedSample> sample_flat(const Rectangle& r, const Vec3& normal, const SurfacePoint& at,
                                            math::SampleStream& stream) {
     const Frame frame = Frame::around(at.normal);
     const Vec3 corner = frame.to_local(r.corner - at.position);
@@ -88,7 +88,7 @@ std::optional<ProjectedSample> sample_flat(const Rectangle& r, const Vec3& norma
 struct SeenSphere {
     double sine_s, cosine_s, sine_t, cosine_t;
 
-    SeenSphere(const Sphere& sphere, const LitPoint& at) {
+    SeenSphere(const Sphere& sphere, const SurfacePoint& at) {
         const Vec3 towards = sphere.center - at.position;
         const double distance = length(towards);
         sine_s = sphere.radius / distance;
@@ -212,7 +212,7 @@ double arc_term(const Rim& rim, double from, double to, const Vec3& normal) {
            (beta * (to - from) - gamma * logarithm) / b;
 }
 
-double disk_sr(const Disk& disk, const LitPoint& at) {
+double disk_sr(const Disk& disk, const SurfacePoint& at) {
     if (!sees_front(disk.center - at.position, disk.normal)) return 0;
     const Rim rim = rim_of(disk, at.position);
     // Along the rim the height above the horizon is middle + swing cos(angle - top).
@@ -231,7 +231,8 @@ double disk_sr(const Disk& disk, const LitPoint& at) {
 }
 
 /// By points of the disk's square, until one is in the disk.
-std::optional<ProjectedSample> sample_disk(const Disk& disk, const LitPoint& at, math::SampleStream& stream) {
+std::optional<ProjectedSample> sample_disk(const Disk& disk, const SurfacePoint& at,
+                                           math::SampleStream& stream) {
     auto [u1, u2] = stream.next_two();
     const double sr = disk_sr(disk, at);
     if (!(sr > 0)) return std::nullopt;
@@ -251,7 +252,7 @@ std::optional<ProjectedSample> sample_disk(const Disk& disk, const LitPoint& at,
     return std::nullopt;
 }
 
-std::optional<ProjectedSample> sample_sphere(const Sphere& sphere, const LitPoint& at,
+std::optional<ProjectedSample> sample_sphere(const Sphere& sphere, const SurfacePoint& at,
                                              math::SampleStream& stream) {
     if (!is_outside(sphere, at.position)) return std::nullopt;
     const SeenSphere seen(sphere, at);
@@ -273,7 +274,7 @@ bool has_closed_form(const EmitterElement& element) {
     return !std::holds_alternative<Harmonics>(element.shape);
 }
 
-double projected_solid_angle_sr(const EmitterElement& element, const LitPoint& at) {
+double projected_solid_angle_sr(const EmitterElement& element, const SurfacePoint& at) {
     return std::visit(
         [&]<typename S>(const S& shape) -> double {
             if constexpr (std::is_same_v<S, Sphere>) {
@@ -289,7 +290,7 @@ double projected_solid_angle_sr(const EmitterElement& element, const LitPoint& a
         element.shape);
 }
 
-std::optional<ProjectedSample> sample_projected(const EmitterElement& element, const LitPoint& at,
+std::optional<ProjectedSample> sample_projected(const EmitterElement& element, const SurfacePoint& at,
                                                 math::SampleStream& stream) {
     return std::visit(
         [&]<typename S>(const S& shape) -> std::optional<ProjectedSample> {

@@ -12,30 +12,26 @@
 #include <optional>
 #include <span>
 
+#include "base/surface_point.h"
 #include "lights/emitter_elements.h"
 #include "math/random.h"
 
 namespace stilb::lights {
-
-/// A point of a surface that receives light; the normal is a unit vector.
-struct LitPoint {
-    Vec3 position, normal;
-};
 
 /// Whether an element has a closed form: all but surfaces by harmonics.
 bool has_closed_form(const EmitterElement& element);
 
 /// The projected solid angle of an element's front above the horizon [sr]; pi if it filled the sky. 0 in the
 /// element's plane and behind it, and inside of spheres. Precondition: has_closed_form().
-double projected_solid_angle_sr(const EmitterElement& element, const LitPoint& at);
+double projected_solid_angle_sr(const EmitterElement& element, const SurfacePoint& at);
 
 /// A point of the element whose direction is uniform by projected solid angle; nothing where that is 0, or
 /// too small for a direction in double precision. Precondition: has_closed_form().
 struct ProjectedSample {
-    EmitterPoint point;
+    SurfacePoint point;
     double projected_solid_angle_sr = 0;  ///< of the whole element
 };
-std::optional<ProjectedSample> sample_projected(const EmitterElement& element, const LitPoint& at,
+std::optional<ProjectedSample> sample_projected(const EmitterElement& element, const SurfacePoint& at,
                                                 math::SampleStream& stream);
 
 }  // namespace stilb::lights

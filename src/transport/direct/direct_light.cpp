@@ -5,14 +5,10 @@
 #include <cmath>
 
 #include "base/parallel.h"
+#include "transport/direct/one_receiver.h"
 #include "transport/direct/tile_choice.h"
 
 namespace stilb::transport {
-namespace {
-
-lights::LitPoint lit_point(const Receiver& receiver) { return {receiver.position(), receiver.normal()}; }
-
-}  // namespace
 
 /// Light that shadow rays of a tile bring in.
 struct DirectLight::ShadowRays {
@@ -48,19 +44,14 @@ double DirectLight::Remainder::rays(std::size_t receivers) const {
 
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
     : scene_(scene), caster_(caster), lights_(lights), has_many_lamps_(lights.chooses_extended()) {
-    std::vector<LightTree::Light> leaves;
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
         const Light& light = scene.lights[i];
-        if (const auto origin = lights::point_origin(light)) {
+        if (lights.is_point(i)) {
             points_.push_back(i);
-            const double intensity_cd = flux_lm(scene, light).luminance() / (4 * kPi);
-            leaves.push_back(
-                {static_cast<std::uint32_t>(i), {}, lights.choice_favour(i) * intensity_cd, true});
-            leaves.back().bounds.include(origin->position);
         } else if (auto lamp = UniformLamp::of(scene, light, caster.lift())) {
             lamps_.push_back(std::move(*lamp));
             of_lamps_.push_back(i);
-        } else if (auto opening = OpeningLamp::of(scene, light, caster.lift())) {
+        } else if (auto opening = OpeningLamp::of(scene, i, lights, caster.lift())) {
             openings_.push_back(std::move(*opening));
             of_openings_.push_back(i);
         } else if (has_many_lamps_ && location_of(light) == LightLocation::surface) {
@@ -69,7 +60,9 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, cons
             others_.push_back(i);
         }
     }
-    if (points_.size() > kFewPoints) tree_of_points_ = LightTree(std::move(leaves));
+    if (points_.size() > kFewPoints)
+        tree_of_points_ =
+            LightTree(lights.leaves(scene, [&](std::size_t light) { return lights.is_point(light); }));
     if (lamp_count() > 0) shafts_.emplace(scene, caster.center());
 }
 
@@ -118,24 +111,21 @@ std::size_t DirectLight::light_of(std::size_t lamp) const {
 }
 
 /// Of all of the lamp, where that is known.
-std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const lights::LitPoint& at) const {
+std::optional<Rgb> DirectLight::whole_lx(std::size_t lamp, const SurfacePoint& at) const {
     if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at);
     return openings_[lamp - lamps_.size()].illuminance_lx(at);
 }
 
 /// Of all of the lamp, or of a surface without closed form: 0 only where that gives no light.
-double DirectLight::rough_lx(std::size_t lamp, const lights::LitPoint& at) const {
+double DirectLight::rough_lx(std::size_t lamp, const SurfacePoint& at) const {
     if (lamp < lamps_.size()) return lamps_[lamp].illuminance_lx(at).luminance();
-    return lights_.rough_illuminance_lx(light_of(lamp), at.position, at.normal);
+    return lights_.rough_illuminance_lx(light_of(lamp), at);
 }
 
-std::optional<LampSample> DirectLight::sample_lamp(std::size_t lamp, const lights::LitPoint& at,
-                                                   math::SampleStream& stream) const {
+std::optional<DirectSample> DirectLight::sample_lamp(std::size_t lamp, const SurfacePoint& at,
+                                                     math::SampleStream& stream) const {
     if (lamp < lamps_.size()) return lamps_[lamp].sample(at, stream);
-    if (lamp < lamp_count()) return openings_[lamp - lamps_.size()].sample(at, stream);
-    const auto incident =
-        lights_.sample_incident(surfaces_[lamp - lamp_count()], {at.position, at.normal}, stream.next_two());
-    return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
+    return direct_sample(lights_.sample_incident(light_of(lamp), at, stream.next_two()), at);
 }
 
 DirectLight::Remainder DirectLight::add_known(std::span<const Receiver> tile, bool settles,
@@ -161,7 +151,7 @@ void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remai
         std::size_t count = 0;
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (!has_closed_form(tile[i])) continue;
-            whole_lx[i] = lamps_[l].illuminance_lx(lit_point(tile[i]));
+            whole_lx[i] = lamps_[l].illuminance_lx(tile[i].point());
             if (whole_lx[i].max() > 0) lit[count++] = tile[i].lifted();
         }
         if (count == 0) continue;
@@ -177,7 +167,7 @@ void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remai
     }
     for (std::size_t o = 0; o < openings_.size(); ++o) {
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            if (has_closed_form(tile[i]) && openings_[o].may_light(lit_point(tile[i])))
+            if (has_closed_form(tile[i]) && openings_[o].may_light(tile[i].point()))
                 remainder.lamps[i] |= 1u << (lamps_.size() + o);
         }
     }
@@ -189,7 +179,7 @@ std::optional<Rgb> DirectLight::settled_lx(std::size_t lamp, const Receiver& rec
     const LampHull& hull = hull_of(lamp);
     if (hull.is_hidden_from(receiver.lifted(), scene_, caster_)) return Rgb{};
     if (!hull.is_seen_from(std::span(&receiver.lifted(), 1), *shafts_)) return std::nullopt;
-    return whole_lx(lamp, lit_point(receiver));
+    return whole_lx(lamp, receiver.point());
 }
 
 void DirectLight::settle_one_by_one(std::span<const Receiver> tile, Remainder& remainder,
@@ -215,7 +205,7 @@ void DirectLight::settle_many_lamps(std::span<const Receiver> tile, Remainder& r
         std::size_t count = 0;
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (!has_closed_form(tile[i])) continue;
-            rough[i] = rough_lx(l, lit_point(tile[i]));
+            rough[i] = rough_lx(l, tile[i].point());
             if (rough[i] > 0) lit[count++] = tile[i].lifted();
         }
         const bool may_settle = count > 0 && l < lamp_count();
@@ -224,7 +214,7 @@ void DirectLight::settle_many_lamps(std::span<const Receiver> tile, Remainder& r
             if (!(rough[i] > 0)) continue;
             std::optional<Rgb> received_lx;
             if (all_see_it)
-                received_lx = whole_lx(l, lit_point(tile[i]));
+                received_lx = whole_lx(l, tile[i].point());
             else if (may_settle)
                 received_lx = settled_lx(l, tile[i]);
             if (received_lx) {
@@ -254,9 +244,9 @@ void DirectLight::add_shadowed(std::span<const Receiver> tile, std::size_t lamp,
     ShadowRays shadow_rays;
     for (std::size_t i = 0; i < tile.size(); ++i) {
         if ((remainder.lamps[i] >> lamp & 1u) == 0) continue;
-        if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
-            shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
-                            sample->illuminance_lx * *tile[i].constant_response(), light_of(lamp));
+        if (const auto sample = sample_lamp(lamp, tile[i].point(), streams[i]))
+            shadow_rays.add(i, sample->segment, sample->illuminance_lx * *tile[i].constant_response(),
+                            light_of(lamp));
     }
     shadow_rays.trace(caster_, light);
 }
@@ -270,8 +260,8 @@ void DirectLight::add_chosen_lamps(std::span<const Receiver> tile, const Remaind
         for (std::size_t i = 0; i < tile.size(); ++i) {
             if (choice >= remainder.open[i].choices()) continue;
             const auto [lamp, factor] = remainder.open[i].choose(choice, first[i]);
-            if (const auto sample = sample_lamp(lamp, lit_point(tile[i]), streams[i]))
-                shadow_rays.add(i, {tile[i].lifted(), sample->lifted},
+            if (const auto sample = sample_lamp(lamp, tile[i].point(), streams[i]))
+                shadow_rays.add(i, sample->segment,
                                 factor * sample->illuminance_lx * *tile[i].constant_response(),
                                 light_of(lamp));
         }
@@ -312,7 +302,7 @@ void DirectLight::add_point(std::span<const Receiver> tile, std::size_t point, d
 void DirectLight::add_ray(std::span<const Receiver> tile, std::size_t lane, std::size_t light,
                           const std::array<double, 2>& u, double factor, ShadowRays& shadow_rays) const {
     const Receiver& receiver = tile[lane];
-    const auto incident = lights_.sample_incident(light, receiving_point(receiver), u);
+    const auto incident = lights_.sample_incident(light, receiver.point(), u);
     if (!incident) return;
     const double sensitivity = receiver.sensitivity(incident->direction);
     if (!(sensitivity > 0) || !(incident->normal_illuminance_lx.max() > 0)) return;
@@ -330,14 +320,13 @@ void DirectLight::add_chosen_points(std::span<const Receiver> tile, math::Sample
     if (lights.is_empty()) return;
     std::size_t previous = ~std::size_t{0};
     double factor = 0;
-    for (std::size_t i = 0; i < kChosen; ++i) {
-        const auto choice = lights.choose((static_cast<double>(i) + first) / kChosen);
+    choose_evenly(lights, kChosen, first, [&](const math::DiscreteChoice& choice, double expected) {
         if (choice.index != previous) {
             if (factor > 0) add_point(tile, previous, factor, light);
             previous = choice.index, factor = 0;
         }
-        factor += 1 / (kChosen * choice.probability);
-    }
+        factor += 1 / expected;
+    });
     add_point(tile, previous, factor, light);
 }
 

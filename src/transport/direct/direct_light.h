@@ -10,8 +10,8 @@
 // point that is drawn by projected solid angle, so that it is 0 or 1 but for panes: there is no noise where
 // all of the lamp is seen, or nothing of it. The shadow rays of a tile form packets.
 //
-// A luminaire's opening that a reading sees for certain is integrated by quadrature, once
-// (transport/direct/opening_lamp.h).
+// Where the luminance depends on direction, as that of a luminaire's opening, a lamp that a reading sees for
+// certain is integrated by quadrature, once (transport/direct/opening_lamp.h).
 //
 // Where lamps are many (LightSampler::chooses_extended()), readings settle those that each receiver sees for
 // certain, or not at all, and choose among the others (open_lamps.h); pictures, and readings that are too
@@ -19,7 +19,7 @@
 //
 // Point lights are exact, one packet of shadow rays each. Where there are many of them, pictures choose
 // kChosen by a tree for the whole tile, with exact probabilities. All other lights, and receivers whose
-// response depends on direction, are sampled as in sample_direct_from_areas() (receiver.h).
+// response depends on direction, are sampled as in sample_direct_from_areas() (one_receiver.h).
 #pragma once
 
 #include <algorithm>
@@ -91,7 +91,7 @@ class DirectLight {
     /// The largest number of point lights that pictures take one by one.
     static constexpr std::size_t kFewPoints = 16;
     /// Point lights chosen for a tile where there are more.
-    static constexpr std::size_t kChosen = 16;
+    static constexpr std::uint32_t kChosen = 16;
 
   private:
     struct ShadowRays;
@@ -120,12 +120,12 @@ class DirectLight {
     std::size_t light_of(std::size_t lamp) const;
     std::size_t lamp_count() const { return lamps_.size() + openings_.size(); }
     const LampHull& hull_of(std::size_t lamp) const;
-    std::optional<Rgb> whole_lx(std::size_t lamp, const lights::LitPoint& at) const;
-    double rough_lx(std::size_t lamp, const lights::LitPoint& at) const;
+    std::optional<Rgb> whole_lx(std::size_t lamp, const SurfacePoint& at) const;
+    double rough_lx(std::size_t lamp, const SurfacePoint& at) const;
     /// The illuminance of one receiver by a lamp, where that is certain.
     std::optional<Rgb> settled_lx(std::size_t lamp, const Receiver& receiver) const;
-    std::optional<LampSample> sample_lamp(std::size_t lamp, const lights::LitPoint& at,
-                                          math::SampleStream& stream) const;
+    std::optional<DirectSample> sample_lamp(std::size_t lamp, const SurfacePoint& at,
+                                            math::SampleStream& stream) const;
     void add_shadowed(std::span<const Receiver> tile, std::size_t lamp, const Remainder& remainder,
                       std::span<math::SampleStream> streams, TileLight& light) const;
     void add_chosen_lamps(std::span<const Receiver> tile, const Remainder& remainder,

@@ -78,12 +78,6 @@ bool hides_nothing_of_itself(std::span<const lights::EmitterElement> elements) {
 
 }  // namespace
 
-std::optional<LampSample> lamp_sample(const lights::IncidentLight& incident, const Vec3& normal) {
-    const double cosine = dot(incident.direction, normal);
-    if (!(cosine > 0) || !(incident.normal_illuminance_lx.max() > 0)) return std::nullopt;
-    return LampSample{incident.source_point, cosine * incident.normal_illuminance_lx};
-}
-
 LampHull::LampHull(ObjectId object, std::span<const lights::EmitterElement> elements, const Lift& lift)
     : object_(object), is_convex_(hides_nothing_of_itself(elements)) {
     if (!is_convex_) return;

@@ -11,15 +11,6 @@
 
 namespace stilb::transport {
 
-/// Light from a point of a lamp to a receiver.
-struct LampSample {
-    Vec3 lifted;         ///< shadow rays end here
-    Rgb illuminance_lx;  ///< without shadows; its mean is that of the whole lamp
-};
-
-/// A light's sample at a point with this normal; nothing where it brings no light.
-std::optional<LampSample> lamp_sample(const lights::IncidentLight& incident, const Vec3& normal);
-
 /// The convex hull of all points of a lamp where shadow rays end.
 class LampHull {
   public:

@@ -4,12 +4,11 @@
 #include <array>
 #include <cmath>
 #include <span>
-#include <variant>
 
 namespace stilb::transport {
 namespace {
 
-/// Openings of more elements are sampled.
+/// Surfaces of more elements are sampled.
 constexpr std::size_t kMostElements = 64;
 
 /// Rules over (0, 1), each with twice the nodes of the one before.
@@ -28,28 +27,24 @@ const std::array<math::GaussLegendre, 4>& rules() {
 
 }  // namespace
 
-std::optional<OpeningLamp> OpeningLamp::of(const Scene& scene, const Light& light, const Lift& lift) {
-    const auto* opening = std::get_if<LuminousOpening>(&light.source);
-    if (opening == nullptr) return std::nullopt;
-    OpeningLamp lamp(scene, *opening, lift);
+std::optional<OpeningLamp> OpeningLamp::of(const Scene& scene, std::size_t light, const LightSampler& lights,
+                                           const Lift& lift) {
+    const auto object = lights::emitting_object(scene.lights[light]);
+    if (!object || lights::uniform_emission(scene.lights[light])) return std::nullopt;
+    std::vector<lights::EmitterElement> elements = lights::emitter_elements(scene.object(*object).shape);
     const bool is_flat = std::ranges::all_of(
-        lamp.elements_, [](const lights::EmitterElement& element) { return element.normal.has_value(); });
-    if (!is_flat || lamp.elements_.size() > kMostElements) return std::nullopt;
-    return lamp;
+        elements, [](const lights::EmitterElement& element) { return element.normal.has_value(); });
+    if (!is_flat || elements.size() > kMostElements) return std::nullopt;
+    return OpeningLamp(light, lights, *object, std::move(elements), lift);
 }
 
-OpeningLamp::OpeningLamp(const Scene& scene, const LuminousOpening& opening, const Lift& lift)
-    : emitter_(opening, scene::LightSurroundings(scene), lift),
-      elements_(lights::emitter_elements(scene.object(opening.object).shape)),
-      hull_(opening.object, elements_, lift) {}
-
-bool OpeningLamp::may_light(const lights::LitPoint& at) const {
+bool OpeningLamp::may_light(const SurfacePoint& at) const {
     return std::ranges::any_of(elements_, [&](const lights::EmitterElement& element) {
         return dot(at.position - element.middle, *element.normal) > 0;
     });
 }
 
-std::optional<Rgb> OpeningLamp::illuminance_lx(const lights::LitPoint& at) const {
+std::optional<Rgb> OpeningLamp::illuminance_lx(const SurfacePoint& at) const {
     Rgb coarse = sum_lx(at, rules()[0]);
     for (const math::GaussLegendre& rule : std::span(rules()).subspan(1)) {
         const Rgb fine = sum_lx(at, rule);
@@ -59,30 +54,25 @@ std::optional<Rgb> OpeningLamp::illuminance_lx(const lights::LitPoint& at) const
     return std::nullopt;
 }
 
-Rgb OpeningLamp::sum_lx(const lights::LitPoint& at, const math::GaussLegendre& rule) const {
+Rgb OpeningLamp::sum_lx(const SurfacePoint& at, const math::GaussLegendre& rule) const {
     Rgb sum;
     for (const lights::EmitterElement& element : elements_) {
         for (std::size_t i = 0; i < rule.nodes.size(); ++i) {
             for (std::size_t j = 0; j < rule.nodes.size(); ++j) {
-                const auto [position, normal, weight] =
+                const lights::EmitterPoint point =
                     lights::sample_by_area(element, {rule.nodes[i], rule.nodes[j]});
-                const Vec3 towards = position - at.position;
+                const Vec3 towards = point.position - at.position;
                 const double squared_m2 = squared_length(towards);
                 const Vec3 direction = towards * (1 / std::sqrt(squared_m2));
                 const double cosines =
-                    std::max(dot(direction, at.normal), 0.0) * std::max(-dot(direction, normal), 0.0);
+                    std::max(dot(direction, at.normal), 0.0) * std::max(-dot(direction, point.normal), 0.0);
                 if (!(cosines > 0)) continue;
-                const double area_m2 = rule.weights[i] * rule.weights[j] * weight * element.area_m2;
-                sum += (area_m2 * cosines / squared_m2) * emitter_.luminance_cd_m2(-direction);
+                const double area_m2 = rule.weights[i] * rule.weights[j] * point.weight * element.area_m2;
+                sum += (area_m2 * cosines / squared_m2) * lights_.front_luminance(light_, -direction);
             }
         }
     }
     return sum;
-}
-
-std::optional<LampSample> OpeningLamp::sample(const lights::LitPoint& at, math::SampleStream& stream) const {
-    const auto incident = emitter_.sample_incident({at.position, at.normal}, stream.next_two());
-    return incident ? lamp_sample(*incident, at.normal) : std::nullopt;
 }
 
 }  // namespace stilb::transport

@@ -17,15 +17,14 @@ struct FloatBox {
 
 /// As LightTree estimates a box, for sixteen receivers. Without __restrict, which promises that nothing
 /// overlaps, the loop would stay scalar.
-STILB_VECTORIZED void estimate_lanes(const float* __restrict x, const float* __restrict y,
-                                     const float* __restrict z, const float* __restrict normal_x,
-                                     const float* __restrict normal_y, const float* __restrict normal_z,
+STILB_VECTORIZED void estimate_lanes(const rays::LaneVectors& __restrict at,
+                                     const rays::LaneVectors& __restrict normal,
                                      const FloatBox& __restrict box, float* __restrict lanes_lx) {
     for (int i = 0; i < kPacketWidth; ++i) {
-        const float dx = box.x - x[i], dy = box.y - y[i], dz = box.z - z[i];
-        const float height = normal_x[i] * dx + normal_y[i] * dy + normal_z[i] * dz +
-                             std::abs(normal_x[i]) * box.half_x + std::abs(normal_y[i]) * box.half_y +
-                             std::abs(normal_z[i]) * box.half_z;
+        const float dx = box.x - at.x[i], dy = box.y - at.y[i], dz = box.z - at.z[i];
+        const float height = normal.x[i] * dx + normal.y[i] * dy + normal.z[i] * dz +
+                             std::abs(normal.x[i]) * box.half_x + std::abs(normal.y[i]) * box.half_y +
+                             std::abs(normal.z[i]) * box.half_z;
         const float squared = dx * dx + dy * dy + dz * dz + box.squared_radius;
         const float cosine = std::min(1.0f, std::max(0.0f, height) / std::sqrt(squared));
         lanes_lx[i] = box.intensity * cosine / squared;
@@ -38,11 +37,8 @@ TileChoice::TileChoice(const LightTree& tree, const LightSampler& lights, std::s
                        const Vec3& center)
     : tree_(tree), lights_(lights), tile_(tile), center_(center) {
     for (std::size_t i = 0; i < tile.size(); ++i) {
-        const Vec3 p = tile[i].position() - center;
-        const Vec3& n = tile[i].normal();
-        lanes_.x[i] = static_cast<float>(p.x), lanes_.y[i] = static_cast<float>(p.y);
-        lanes_.z[i] = static_cast<float>(p.z), lanes_.normal_x[i] = static_cast<float>(n.x);
-        lanes_.normal_y[i] = static_cast<float>(n.y), lanes_.normal_z[i] = static_cast<float>(n.z);
+        positions_.set(i, tile[i].position() - center);
+        normals_.set(i, tile[i].normal());
     }
     /// Keeps the estimates of all lanes.
     struct RecordingView {
@@ -82,7 +78,7 @@ double TileChoice::nearness(const LightTree::Node& node) const {
     const auto x = static_cast<float>(c.x), y = static_cast<float>(c.y), z = static_cast<float>(c.z);
     float nearest = std::numeric_limits<float>::infinity();
     for (std::size_t i = 0; i < tile_.size(); ++i) {
-        const float dx = x - lanes_.x[i], dy = y - lanes_.y[i], dz = z - lanes_.z[i];
+        const float dx = x - positions_.x[i], dy = y - positions_.y[i], dz = z - positions_.z[i];
         nearest = std::min(nearest, dx * dx + dy * dy + dz * dz);
     }
     return nearest > 0 ? node.squared_radius_m2 / double{nearest} : std::numeric_limits<double>::infinity();
@@ -92,8 +88,7 @@ void TileChoice::estimate(const LightTree::Node& node, Floats& lanes_lx) const {
     if (node.is_point) {
         lanes_lx.fill(0);
         for (std::size_t i = 0; i < tile_.size(); ++i) {
-            lanes_lx[i] = static_cast<float>(
-                lights_.rough_illuminance_lx(node.first, tile_[i].position(), tile_[i].normal()));
+            lanes_lx[i] = static_cast<float>(lights_.rough_illuminance_lx(node.first, tile_[i].point()));
         }
         return;
     }
@@ -106,8 +101,7 @@ void TileChoice::estimate(const LightTree::Node& node, Floats& lanes_lx) const {
                        static_cast<float>(node.half.z),
                        static_cast<float>(node.squared_radius_m2),
                        static_cast<float>(node.intensity_cd)};
-    estimate_lanes(lanes_.x.data(), lanes_.y.data(), lanes_.z.data(), lanes_.normal_x.data(),
-                   lanes_.normal_y.data(), lanes_.normal_z.data(), box, lanes_lx.data());
+    estimate_lanes(positions_, normals_, box, lanes_lx.data());
 }
 
 }  // namespace stilb::transport

@@ -26,10 +26,6 @@ class TileChoice {
 
   private:
     using Floats = RayPacket::Floats;
-    /// Receivers relative to the centre; normals are 0 in lanes without one.
-    struct alignas(64) Lanes {
-        Floats x{}, y{}, z{}, normal_x{}, normal_y{}, normal_z{};
-    };
     /// The view of light_tree.h.
     struct View {
         const TileChoice& own;
@@ -44,7 +40,8 @@ class TileChoice {
     const LightSampler& lights_;
     std::span<const Receiver> tile_;
     Vec3 center_;
-    Lanes lanes_;
+    /// Of the receivers, relative to the centre; normals are 0 in lanes without one.
+    rays::LaneVectors positions_{}, normals_{};
     alignas(64) Floats weights_{};  ///< of lanes: over the estimates of all lights
     LightTree::Cut cut_;
 };

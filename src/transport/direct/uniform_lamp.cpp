@@ -23,21 +23,21 @@ UniformLamp::UniformLamp(ObjectId object, const Rgb& luminance_cd_m2,
       lift_(lift),
       hull_(object, elements_, lift) {}
 
-double UniformLamp::projected_solid_angle_sr(const lights::LitPoint& at) const {
+double UniformLamp::projected_solid_angle_sr(const SurfacePoint& at) const {
     double sum = 0;
     for (const lights::EmitterElement& element : elements_)
         sum += lights::projected_solid_angle_sr(element, at);
     return sum;
 }
 
-std::optional<LampSample> UniformLamp::sample(const lights::LitPoint& at, math::SampleStream& stream) const {
-    const auto sample_of = [&](const lights::EmitterElement& element) -> std::optional<LampSample> {
+std::optional<DirectSample> UniformLamp::sample(const SurfacePoint& at, math::SampleStream& stream) const {
+    const auto sample_of = [&](const lights::EmitterElement& element) -> std::optional<DirectSample> {
         const auto sample = lights::sample_projected(element, at, stream);
         if (!sample) return std::nullopt;
-        const auto& [position, normal, weight] = sample->point;
-        return LampSample{
-            position + lift_.offset_m(position, element.size_m, length(position - at.position)) * normal,
-            sample->projected_solid_angle_sr * luminance_cd_m2_};
+        const Vec3& position = sample->point.position;
+        const double lift_m = lift_.offset_m(position, element.size_m, length(position - at.position));
+        return DirectSample{{at.lifted, position + lift_m * sample->point.normal},
+                            sample->projected_solid_angle_sr * luminance_cd_m2_};
     };
     if (elements_.size() == 1) return sample_of(elements_[0]);
     const double u = stream.next();

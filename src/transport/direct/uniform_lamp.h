@@ -7,6 +7,7 @@
 #include "lights/solid_angle/projected_solid_angle.h"
 #include "scene/scene.h"
 #include "transport/direct/lamp_hull.h"
+#include "transport/light_sampler.h"
 
 namespace stilb::transport {
 
@@ -19,16 +20,16 @@ class UniformLamp {
 
     const LampHull& hull() const { return hull_; }
     /// The illuminance without shadows, as if elements hid nothing of each other: exact.
-    Rgb illuminance_lx(const lights::LitPoint& at) const {
+    Rgb illuminance_lx(const SurfacePoint& at) const {
         return projected_solid_angle_sr(at) * luminance_cd_m2_;
     }
     /// The light from a point of the front that is drawn by projected solid angle.
-    std::optional<LampSample> sample(const lights::LitPoint& at, math::SampleStream& stream) const;
+    std::optional<DirectSample> sample(const SurfacePoint& at, math::SampleStream& stream) const;
 
   private:
     UniformLamp(ObjectId object, const Rgb& luminance_cd_m2, std::vector<lights::EmitterElement> elements,
                 const Lift& lift);
-    double projected_solid_angle_sr(const lights::LitPoint& at) const;
+    double projected_solid_angle_sr(const SurfacePoint& at) const;
 
     Rgb luminance_cd_m2_;
     std::vector<lights::EmitterElement> elements_;

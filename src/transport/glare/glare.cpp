@@ -87,7 +87,7 @@ class Eye {
     };
     /// Nothing where the eye does not see the point.
     std::optional<Point> see_point(std::size_t light) const {
-        const auto incident = lights_.sample_incident(light, position_, {});
+        const auto incident = lights_.sample_incident(light, {position_}, {});
         if (!incident) return std::nullopt;
         const double cosine = dot(incident->direction, sight_);
         if (!(cosine > 0)) return std::nullopt;
@@ -167,11 +167,15 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
     glare.direct_of_replicates_lx.resize(replicates);
     const Eye eye(at, caster, lights);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
-        if (const auto object = lights::emitting_object(scene.lights[i])) {
-            const lights::EmitterSurface surface(scene.object(*object).shape, caster.lift());
-            add_lamp(eye, i, surface, key.derived(i), glare);
-        } else if (lights.is_point(i)) {
-            add_point(eye, i, glare);
+        switch (location_of(scene.lights[i])) {
+            case LightLocation::point: add_point(eye, i, glare); break;
+            case LightLocation::surface: {
+                const ObjectId object = *lights::emitting_object(scene.lights[i]);
+                const lights::EmitterSurface surface(scene.object(object).shape, caster.lift());
+                add_lamp(eye, i, surface, key.derived(i), glare);
+                break;
+            }
+            case LightLocation::infinity: break;  // background
         }
     }
     return glare;

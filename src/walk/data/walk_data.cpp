@@ -250,13 +250,13 @@ class SceneContainer {
         Rows<float> rows(0, 8);
         std::size_t first = 0;
         for (std::size_t i = 0; i < scene_.lights.size(); ++i) {
-            const std::vector<HighlightPoint> points = highlight_points(scene_, scene_.lights[i]);
+            const std::vector<lights::EmitterPoint> points = highlight_points(scene_, scene_.lights[i]);
             list.push_back(json_of(scene_, scene_.lights[i], groups.of_light[i], first, points.size()));
             first += points.size();
-            for (const auto& [position, normal, weight] : points) {
-                add_position(rows, position);
-                add_position(rows, normal);
-                rows.add({static_cast<float>(weight), 0});
+            for (const lights::EmitterPoint& point : points) {
+                add_position(rows, point.position);
+                add_position(rows, point.normal);
+                rows.add({static_cast<float>(point.weight), 0});
             }
         }
         arrays_.push_back(make_array("light_points", 8, rows));

@@ -8,6 +8,8 @@
 namespace stilb::walk {
 namespace {
 
+using transport::direct_sample;
+
 /// Points on a light with a surface, and on light from infinity, which is seen through small windows.
 constexpr std::size_t kFewOnSurface = 16, kManyOnSurface = 64, kFewOutside = 64, kManyOutside = 256;
 /// Shadow rays of a surface point, about, where there are many extended lights.
@@ -16,22 +18,6 @@ constexpr std::size_t kMostFew = 256, kLeastFew = 4;
 constexpr std::size_t kGroups = 4;
 /// Relative standard error for which few points suffice.
 constexpr double kSmallError = 0.005;
-
-/// Light that a sample would bring without anything in between [lx].
-struct Arrival {
-    rays::Segment segment;
-    Rgb illuminance_lx;
-};
-
-std::optional<Arrival> arrival(const transport::LightSampler& sampler, std::size_t light,
-                               const LitPoint& point, const std::array<double, 2>& u) {
-    const auto incident =
-        sampler.sample_incident(light, transport::ReceivingPoint{point.position, point.normal}, u);
-    if (!incident) return std::nullopt;
-    const double cosine = dot(incident->direction, point.normal);
-    if (!(cosine > 0)) return std::nullopt;
-    return Arrival{{point.lifted, incident->source_point}, cosine * incident->normal_illuminance_lx};
-}
 
 }  // namespace
 
@@ -49,7 +35,7 @@ DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster)
         pattern_.push_back(math::SampleStream(math::RandomKey{1}, k).next_two());
 }
 
-double DirectLight::add(const LitPoint& point, double share, std::span<float> sums) const {
+double DirectLight::add(const SurfacePoint& point, double share, std::span<float> sums) const {
     double squared_error = 0;
     for (std::size_t light = 0; light < count(); ++light) {
         const Estimate estimate =
@@ -60,13 +46,13 @@ double DirectLight::add(const LitPoint& point, double share, std::span<float> su
     return squared_error;
 }
 
-DirectLight::Estimate DirectLight::by_point_light(std::size_t light, const LitPoint& point) const {
-    const auto arriving = arrival(sampler_, light, point, {});
-    if (!arriving || !(arriving->illuminance_lx.max() > 0)) return {};
-    return {(arriving->illuminance_lx * caster_.transmittance(arriving->segment)).luminance()};
+DirectLight::Estimate DirectLight::by_point_light(std::size_t light, const SurfacePoint& point) const {
+    const auto sample = direct_sample(sampler_.sample_incident(light, point, {}), point);
+    if (!sample) return {};
+    return {(sample->illuminance_lx * caster_.transmittance(sample->segment)).luminance()};
 }
 
-DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const LitPoint& point) const {
+DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const SurfacePoint& point) const {
     const auto [few, many] = efforts_[light];
     const Estimate first = by_points(light, point, few);
     const double small = kSmallError * first.lx;
@@ -74,16 +60,16 @@ DirectLight::Estimate DirectLight::by_extended_light(std::size_t light, const Li
     return by_points(light, point, many);
 }
 
-DirectLight::Estimate DirectLight::by_points(std::size_t light, const LitPoint& point,
+DirectLight::Estimate DirectLight::by_points(std::size_t light, const SurfacePoint& point,
                                              std::size_t points) const {
     std::vector<rays::Segment> segments;
     std::vector<Rgb> arriving_lx;
     std::vector<std::size_t> groups;
     for (std::size_t k = 0; k < points; ++k) {
-        const auto arriving = arrival(sampler_, light, point, pattern_[k]);
-        if (!arriving) continue;
-        segments.push_back(arriving->segment);
-        arriving_lx.push_back(arriving->illuminance_lx);
+        const auto sample = direct_sample(sampler_.sample_incident(light, point, pattern_[k]), point);
+        if (!sample) continue;
+        segments.push_back(sample->segment);
+        arriving_lx.push_back(sample->illuminance_lx);
         groups.push_back(k * kGroups / points);
     }
     std::vector<Rgb> transmittances(segments.size());

@@ -20,13 +20,6 @@
 
 namespace stilb::walk {
 
-/// A point that receives light.
-struct LitPoint {
-    Vec3 position;
-    Vec3 lifted;  ///< where shadow rays start
-    Vec3 normal;  ///< unit; its cosine counts
-};
-
 /// Keeps references to scene and caster. Immutable.
 class DirectLight {
   public:
@@ -36,7 +29,7 @@ class DirectLight {
     std::size_t count() const { return sampler_.count(); }
     /// Adds `share` times the illuminance by each light, luminance-weighted [lx], to `sums`; returns the
     /// squared standard error of what it adds [lx2].
-    double add(const LitPoint& point, double share, std::span<float> sums) const;
+    double add(const SurfacePoint& point, double share, std::span<float> sums) const;
 
   private:
     /// The first number of points on a light, and the number where that is not enough.
@@ -47,9 +40,9 @@ class DirectLight {
         double lx = 0, squared_error = 0;
         bool is_partly_hidden = false;
     };
-    Estimate by_point_light(std::size_t light, const LitPoint& point) const;
-    Estimate by_extended_light(std::size_t light, const LitPoint& point) const;
-    Estimate by_points(std::size_t light, const LitPoint& point, std::size_t points) const;
+    Estimate by_point_light(std::size_t light, const SurfacePoint& point) const;
+    Estimate by_extended_light(std::size_t light, const SurfacePoint& point) const;
+    Estimate by_points(std::size_t light, const SurfacePoint& point, std::size_t points) const;
 
     const rays::RayCaster& caster_;
     transport::LightSampler sampler_;

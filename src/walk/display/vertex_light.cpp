@@ -49,7 +49,7 @@ std::vector<VertexLight::Sample> VertexLight::free_samples(const Vec3& position,
     for (const auto& [towards, side] : around) {
         const Vec3 moved = position + share * (towards - position);
         const Vec3 lifted = estimators::lifted_off(scene_, patches_, caster_, side, moved);
-        const Sample sample{{lifted, lifted, normal}, side};
+        const Sample sample{{lifted, normal}, side};
         if (!is_covered(sample)) samples.push_back(sample);
     }
     return samples;

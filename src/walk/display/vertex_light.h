@@ -45,7 +45,7 @@ class VertexLight {
 
   private:
     struct Sample {
-        LitPoint point;
+        SurfacePoint point;
         std::uint32_t side = 0;
     };
     std::vector<Sample> free_samples(const Vec3& position, const Vec3& normal,

@@ -13,11 +13,6 @@
 
 namespace stilb::estimators {
 
-/// A point on a surface, and where rays from it start.
-struct SidePoint {
-    Vec3 position, lifted, normal;
-};
-
 /// Light that arrives at a surface.
 struct Arrival {
     Vec3 direction;  ///< unit, towards the light
@@ -36,7 +31,7 @@ class BoundedDirect {
     /// times so many, which are chosen. Where all lights are points, one sample of each that is not chosen:
     /// all samples of it would be the same.
     template <typename Visit>
-    void sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
+    void sample(const SurfacePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
                 const Visit& visit) const;
 
     /// A particle of the second part: its flux, and the surface that it meets.
@@ -56,8 +51,8 @@ class BoundedDirect {
 
     double share(double squared_distance) const { return std::min(1.0, squared_distance / near_m2_); }
     template <typename Visit>
-    void add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at, Part part,
-             const Visit& visit) const;
+    void add(const std::optional<lights::IncidentLight>& light, double weight, const SurfacePoint& at,
+             Part part, const Visit& visit) const;
 
     const rays::RayCaster& caster_;
     const transport::LightSampler& lights_;
@@ -66,8 +61,8 @@ class BoundedDirect {
 };
 
 template <typename Visit>
-void BoundedDirect::sample(const SidePoint& at, Part part, std::uint32_t samples, math::SampleStream& stream,
-                           const Visit& visit) const {
+void BoundedDirect::sample(const SurfacePoint& at, Part part, std::uint32_t samples,
+                           math::SampleStream& stream, const Visit& visit) const {
     const bool are_points = !lights_.has_visible_lights();
     if (lights_.count() <= (are_points ? kEach * samples : kEach)) {
         if (are_points) samples = 1;
@@ -75,19 +70,18 @@ void BoundedDirect::sample(const SidePoint& at, Part part, std::uint32_t samples
         for (std::size_t light = 0; light < lights_.count(); ++light) {
             const std::array<double, 2> shift = stream.next_two();
             for (std::uint32_t i = 0; i < samples; ++i)
-                add(lights_.sample_incident(light, {at.position, at.normal},
-                                            math::even_point(i, samples, shift)),
-                    weight, at, part, visit);
+                add(lights_.sample_incident(light, at, math::even_point(i, samples, shift)), weight, at, part,
+                    visit);
         }
         return;
     }
-    lights_.sample_some_lights(at.position, at.normal, kEach * samples, stream,
+    lights_.sample_some_lights(at, kEach * samples, stream,
                                [&](const lights::IncidentLight& light) { add(light, 1, at, part, visit); });
 }
 
 template <typename Visit>
-void BoundedDirect::add(const std::optional<lights::IncidentLight>& light, double weight, const SidePoint& at,
-                        Part part, const Visit& visit) const {
+void BoundedDirect::add(const std::optional<lights::IncidentLight>& light, double weight,
+                        const SurfacePoint& at, Part part, const Visit& visit) const {
     if (!light) return;
     const double cosine = dot(light->direction, at.normal);
     if (cosine <= 0) return;

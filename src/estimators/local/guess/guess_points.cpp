@@ -92,11 +92,11 @@ void GuessPoints::select(const Choice& choice, const std::array<double, 2>& u,
         const std::uint32_t side = sides[i];
         const math::Barycentric at_side = math::sample_triangle(rest, across - std::floor(across));
         if (!guess_.shared_places().owns(side, at_side)) return;
-        const SidePoint point = side_point(patches, caster_, side, at_side);
+        const SurfacePoint point = side_point(patches, caster_, side, at_side);
         const transport::LightSum guessed = guess_.at(side, at_side);
         const Rgb light = guessed.whole * (double{patches.areas_m2[patches.patch_of(side)]} * times);
         points.push_back(
-            {SegmentOrigin(point.position, point.lifted, point.normal, caster_.center()),
+            {SegmentOrigin(point, caster_.center()),
              choice.split,
              {static_cast<float>(light[0]), static_cast<float>(light[1]), static_cast<float>(light[2])},
              guessed.relative_shares()});

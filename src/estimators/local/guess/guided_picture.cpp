@@ -26,10 +26,7 @@ constexpr std::uint64_t kMostPaths = 2048;
 
 /// Points of the guess for the sub-points of a cell, chosen for some that are spread over it.
 struct CellPoints {
-    struct Spread {
-        Vec3 position, normal;
-    };
-    std::vector<Spread> spread;
+    std::vector<SurfacePoint> spread;
     GuessPoints::Choice choice;
 
     /// Whether each receiver is near to one of these and faces alike. If not, what brings most of its light
@@ -37,7 +34,7 @@ struct CellPoints {
     bool is_for(std::span<const transport::Receiver> receivers, double k_per_m2) const {
         constexpr double parallel = 0.9, near = 0.25;  // connections vary little over a distance of k^-1/2
         return std::ranges::all_of(receivers, [&](const transport::Receiver& receiver) {
-            return std::ranges::any_of(spread, [&](const Spread& other) {
+            return std::ranges::any_of(spread, [&](const SurfacePoint& other) {
                 return dot(receiver.normal(), other.normal) > parallel &&
                        squared_length(receiver.position() - other.position) * k_per_m2 < near;
             });
@@ -161,8 +158,7 @@ class GuidedPicture final : public LocalPicture {
         return points_of_.of(cell, [&] {
             const std::vector<transport::Receiver> receivers = sub_points_.of_cell(cell, plan_);
             CellPoints points{{}, guide_.points.all_sides(receivers, kPoints)};
-            for (const transport::Receiver& receiver : receivers)
-                points.spread.push_back({receiver.position(), receiver.normal()});
+            for (const transport::Receiver& receiver : receivers) points.spread.push_back(receiver.point());
             return points;
         });
     }

@@ -60,11 +60,11 @@ std::vector<std::uint8_t> traced_objects(const Scene& scene) {
 
 }  // namespace
 
-SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
-                     const math::Barycentric& at) {
+SurfacePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
+                        const math::Barycentric& at) {
     const Vec3 position = patches.position(patches.patch_of(side), at);
     const Vec3 normal = patches.normal_of(side);
-    return {position, position + caster.offset_m(position, caster.lift().largest_size_m()) * normal, normal};
+    return {position, normal, position + caster.offset_m(position, caster.lift().largest_size_m()) * normal};
 }
 
 double LightGuess::patch_count(const Scene& scene) {
@@ -115,7 +115,7 @@ struct LightGuess::Solver {
         const std::uint32_t side = rows.sides[row];
         math::SampleStream stream(key.derived(purpose).derived(side), number, 4);
         const auto [u1, u2] = stream.next_two();
-        const SidePoint point = side_point(patches, caster, side, math::sample_triangle(u1, u2));
+        const SurfacePoint point = side_point(patches, caster, side, math::sample_triangle(u1, u2));
         transport::LightSum& source = rows.source_lx[row];
         direct.sample(point, BoundedDirect::Part::bounded, kSideDirect, stream, [&](const Arrival& arrival) {
             source.add(arrival.illuminance_lx * (1. / static_cast<double>(packets)), arrival.light);

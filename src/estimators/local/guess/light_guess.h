@@ -114,7 +114,7 @@ class LightGuess {
     double lit_area_m2_ = 0;
 };
 
-SidePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
-                     const math::Barycentric& at);
+SurfacePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
+                        const math::Barycentric& at);
 
 }  // namespace stilb::estimators

@@ -232,7 +232,7 @@ transport::LightSum ResidualLight::missing_cd_m2(std::uint32_t side, const math:
     return missing;
 }
 
-auto ResidualLight::look_around(const SidePoint& point, math::SampleStream& stream) const -> Around {
+auto ResidualLight::look_around(const SurfacePoint& point, math::SampleStream& stream) const -> Around {
     const auto [u1, u2] = stream.next_two();
     const Vec3 direction =
         Frame::around(point.normal).to_world(math::sample_cosine_hemisphere(u1, u2).direction);
@@ -304,14 +304,10 @@ void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::
     const Start start = start_at(side, at, kResidualPackets, BoundedDirect::Part::bounded, stream);
     const double per_density = double{patches.areas_m2[patches.patch_of(side)]} / choice.probability;
     const materials::SplitMaterial& parts = guess_.material(side);
-    transport::LightVertex diffuse;
-    diffuse.position = start.point.position;
-    diffuse.lifted = start.point.lifted;
+    const Vec3& normal = start.point.normal;
     // The direction of the light that comes in does not matter for the diffuse part.
-    diffuse.normal = diffuse.shading_normal = diffuse.incoming = start.point.normal;
-    diffuse.material = &parts.diffuse;
-    diffuse.flux_lm = start.missing_lx.whole * per_density;
-    diffuse.reflections = 1;
+    transport::LightVertex diffuse{
+        start.point, normal, normal, &parts.diffuse, start.missing_lx.whole * per_density, 1};
     diffuse.shares = start.missing_lx.relative_shares();
     transport::LightVertex gloss = diffuse;
     gloss.incoming = start.direction;
@@ -378,9 +374,8 @@ void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, transport
         const materials::SplitMaterial& parts = guess_.material(hit->material);
         if (!parts.reflects()) return;
         const Material& material = scene_.material(hit->material);
-        vertex.position = hit->position;
-        vertex.lifted = hit->lifted;
-        vertex.normal = vertex.shading_normal = hit->normal;
+        static_cast<SurfacePoint&>(vertex) = *hit;
+        vertex.shading_normal = hit->normal;
         vertex.incoming = -direction;
         vertex.material = &material;
         ++vertex.reflections;

@@ -49,7 +49,7 @@ class ResidualLight {
   private:
     /// Where and how paths start.
     struct Start {
-        SidePoint point;
+        SurfacePoint point;
         transport::LightSum guessed_cd_m2;
         /// One sample of r, as the illuminance that the diffuse part would reflect to it.
         transport::LightSum missing_lx;
@@ -72,7 +72,7 @@ class ResidualLight {
         math::Barycentric at;
         transport::LightSum missing_cd_m2;
     };
-    Around look_around(const SidePoint& point, math::SampleStream& stream) const;
+    Around look_around(const SurfacePoint& point, math::SampleStream& stream) const;
     double pilot(std::uint32_t side, math::RandomKey key) const;
     void trace_particle(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const;

@@ -122,10 +122,10 @@ class Chooser {
         if constexpr (Source::kLocation == LightLocation::point) {
             return shoot_from_point(
                 typename Source::Emitter(source, scene::LightSurroundings(scene_), caster_.lift()));
-        } else if constexpr (std::is_same_v<Source, LuminousOpening>) {
+        } else if constexpr (requires { source.luminaire; }) {
             return shoot_from_opening(source);
         } else if constexpr (Source::kLocation == LightLocation::surface) {
-            static_assert(std::is_same_v<Source, AreaLight>, "a kind of uniform luminance");
+            static_assert(requires { source.luminance_cd_m2; }, "patches emit evenly: add samples of the kind");
             return shoot_from_surface(*uniform_emission(light));
         } else {
             static_assert(Source::kLocation == LightLocation::infinity);
@@ -156,7 +156,7 @@ class Chooser {
     std::string shoot_from_opening(const LuminousOpening& light) {
         const lights::EmitterSurface surface(scene_.object(light.object).shape, caster_.lift());
         const std::size_t count = points_of_opening(scene_.object(light.object));
-        std::vector<lights::EmitterSurface::Point> points;
+        std::vector<lights::EmitterPoint> points;
         for (std::uint32_t i = 0; i < count; ++i) {
             const double u = (i + 0.5) / static_cast<double>(count);
             points.push_back(surface.sample_by_area({u, math::sobol(i, 0) * 0x1p-32}));

@@ -45,20 +45,18 @@ void ShadowRays::add_reflected_by(const Material& material, std::uint32_t side, 
                                   std::span<Rgb> sums) const {
     if (reflects_nothing(material)) return;
     const Frame frame = frame_of(patches_, side);
-    const Vec3 lifted = lifted_off(scene_, patches_, caster_, side, position);
+    const SurfacePoint at{position, frame.w, lifted_off(scene_, patches_, caster_, side, position)};
     const math::RandomKey key_here = key_at(key, side, position);
     const auto for_each_arrival = [&](const auto& visit) {
         for (std::size_t i = 0; i < lights_.lights.size(); ++i) {
             const std::size_t points = lights_.lights[i].samples;
             for (std::size_t k = 0; k < points; ++k) {
                 const auto light = sampler_.sample_incident(
-                    i, position, math::SampleStream(key_here.derived(i), k).next_two());
-                if (!light || !(light->normal_illuminance_lx.max() > 0)) continue;
-                const double cosine = dot(light->direction, frame.w);
-                if (cosine <= 0) continue;
-                visit(light->direction, light->normal_illuminance_lx *
-                                            caster_.transmittance({lifted, light->source_point}) *
-                                            (cosine / static_cast<double>(points)));
+                    i, {position}, math::SampleStream(key_here.derived(i), k).next_two());
+                const auto sample = transport::direct_sample(light, at);
+                if (!sample) continue;
+                visit(light->direction, sample->illuminance_lx * caster_.transmittance(sample->segment) *
+                                            (1 / static_cast<double>(points)));
             }
         }
     };

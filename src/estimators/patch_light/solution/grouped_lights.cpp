@@ -42,12 +42,11 @@ void GroupedLights::add_reflected(const rays::Hit& surface, const Vec3& out, mat
         const Group& group = groups_[g];
         if (!group.sampler) {
             for (const std::size_t light : group.lights)
-                of_groups[g] += reflected(
-                    lights_.sample_incident(light, {surface.position, surface.normal}, stream.next_two()));
+                of_groups[g] += reflected(lights_.sample_incident(light, surface, stream.next_two()));
             continue;
         }
         group.sampler->sample_some_lights(
-            surface.position, surface.normal, kSamplesOfManyLights, stream,
+            surface, kSamplesOfManyLights, stream,
             [&](const transport::IncidentLight& light) { of_groups[g] += reflected(light); });
     }
 }

@@ -131,7 +131,7 @@ LightGather::LightGather(const PatchTransport& coarse, const TermSums& walks, st
 /// Drops vertices that are covered all around: nothing reaches them.
 void LightGather::find_origins(const std::vector<bool>& is_lit) {
     const patches::Patches& patches = fine_.patches;
-    std::vector<std::vector<Origin>> of_vertices(vertices_.count());
+    std::vector<std::vector<SurfacePoint>> of_vertices(vertices_.count());
     for (std::uint32_t p = 0; p < patches.count(); ++p) {
         const Vec3 middle = patches.middle(p);
         for (const std::uint32_t corner : patches.corners[p]) {
@@ -141,15 +141,16 @@ void LightGather::find_origins(const std::vector<bool>& is_lit) {
                 const std::uint32_t number = vertices_.number_of(corner, side);
                 if (number == LightVertices::kDark) continue;
                 of_vertices[number].push_back(
-                    {lifted_off(coarse_.scene, patches, coarse_.caster, side, inside),
-                     patches.normal_of(side)});
+                    {inside, patches.normal_of(side),
+                     lifted_off(coarse_.scene, patches, coarse_.caster, side, inside)});
             }
         }
     }
     const auto drop_covered = [&](std::size_t first, std::size_t last) {
         monitor_.require_more();
         for (std::size_t i = first; i < last; ++i)
-            std::erase_if(of_vertices[i], [&](const Origin& origin) { return is_covered(origin, is_lit); });
+            std::erase_if(of_vertices[i],
+                          [&](const SurfacePoint& origin) { return is_covered(origin, is_lit); });
     };
     parallel_for_parts(of_vertices.size(), drop_covered, kTogether);
     std::vector<std::uint32_t> lit;
@@ -164,7 +165,7 @@ void LightGather::find_origins(const std::vector<bool>& is_lit) {
 }
 
 /// Whether all that a place sees is dark: below something that stands on the surface.
-bool LightGather::is_covered(const Origin& origin, const std::vector<bool>& is_lit) const {
+bool LightGather::is_covered(const SurfacePoint& origin, const std::vector<bool>& is_lit) const {
     const Frame frame = Frame::around(origin.normal);
     RayPacket packet;
     LaneMask lanes{};
@@ -288,7 +289,7 @@ auto LightGather::start(std::uint32_t vertex, std::uint32_t replicate) const -> 
     const Vec3 local = math::sample_cosine_hemisphere(u1, u2).direction;
     const std::size_t count = first_origin_[vertex + 1] - first_origin_[vertex];
     const auto number = static_cast<std::size_t>(stream.next() * static_cast<double>(count));
-    const Origin& origin = origins_[first_origin_[vertex] + number];
+    const SurfacePoint& origin = origins_[first_origin_[vertex] + number];
     const Vec3 direction = vertices_.frame(vertex).to_world(local);
     if (dot(direction, origin.normal) <= 0) return std::nullopt;
     return GatheredRay{vertex, replicate, local, {origin.lifted, direction}, {{}, -direction, stream}};

@@ -54,15 +54,11 @@ class LightGather {
     Illuminances illuminances() const;
 
   private:
-    /// A place of a vertex that rays start from.
-    struct Origin {
-        Vec3 lifted, normal;
-    };
     struct GatheredRay;
     struct LitCorners;
 
     void find_origins(const std::vector<bool>& is_lit);
-    bool is_covered(const Origin& origin, const std::vector<bool>& is_lit) const;
+    bool is_covered(const SurfacePoint& origin, const std::vector<bool>& is_lit) const;
     void add_direct_light();
     void renew_source();
     void renew_source_shares();
@@ -104,8 +100,8 @@ class LightGather {
     transport::PathTracer tracer_;
 
     LightVertices vertices_;
-    std::vector<std::size_t> first_origin_;  ///< per vertex, and the end
-    std::vector<Origin> origins_;
+    std::vector<std::size_t> first_origin_;    ///< per vertex, and the end
+    std::vector<SurfacePoint> origins_;        ///< places of a vertex that rays start from
     std::vector<double> direct_lx_, area_m2_;  ///< per vertex
 
     std::uint64_t steps_ = 0;

@@ -141,9 +141,8 @@ class SolutionPicture final : public Estimator {
 
     std::optional<transport::IncidentLight> sample_light(std::size_t number, transport::Path& path) const {
         if (lights_.count() <= kMostLights)
-            return lights_.sample_incident(number, {path.hit.position, path.hit.normal},
-                                           path.stream.next_two());
-        auto incident = lights_.sample_one_light(path.hit.position, path.hit.normal, path.stream);
+            return lights_.sample_incident(number, path.hit, path.stream.next_two());
+        auto incident = lights_.sample_one_light(path.hit, path.stream);
         if (incident) incident->normal_illuminance_lx *= 1. / kMostLights;
         return incident;
     }

@@ -81,7 +81,7 @@ std::vector<Uv> SurfacePoints::uv(const UvTransform& transform) const {
 double SurfacePoints::leave_holes_out(const MaskedTexture& mask, const UvTransform& transform) {
     const std::vector<Uv> places = uv(transform);
     if (places.empty()) return 1;
-    std::vector<SurfacePoint> covered;
+    std::vector<PointOfTriangle> covered;
     for (std::size_t i = 0; i < places.size(); ++i) {
         if (!mask.is_hole(mask.map.at(places[i]))) covered.push_back(points_[i]);
     }

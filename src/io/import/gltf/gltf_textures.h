@@ -41,7 +41,7 @@ class SurfacePoints {
         std::uint32_t triangle;
     };
     std::vector<Face> faces_;
-    std::vector<SurfacePoint> points_;
+    std::vector<PointOfTriangle> points_;
 };
 
 class Textures {

@@ -80,11 +80,11 @@ std::array<double, 3> even_point_of_triangle(std::size_t i) {
     return {1 - u - v, u, v};
 }
 
-std::vector<SurfacePoint> points_on_surface(std::span<const double> areas_m2) {
+std::vector<PointOfTriangle> points_on_surface(std::span<const double> areas_m2) {
     std::vector<double> area_until;
     double total = 0;
     for (const double area : areas_m2) area_until.push_back(total += area);
-    std::vector<SurfacePoint> points;
+    std::vector<PointOfTriangle> points;
     for (std::size_t i = 0; i < kSurfacePoints && !areas_m2.empty(); ++i) {
         const double at = total * (static_cast<double>(i) + 0.5) / kSurfacePoints;
         const auto found = std::ranges::lower_bound(area_until, at) - area_until.begin();

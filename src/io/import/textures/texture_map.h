@@ -46,11 +46,11 @@ Uv even_point(std::size_t i);
 std::array<double, 3> even_point_of_triangle(std::size_t i);
 
 /// Points that lie evenly on triangles, by area.
-struct SurfacePoint {
+struct PointOfTriangle {
     std::size_t triangle;
     std::array<double, 3> barycentric;
 };
-std::vector<SurfacePoint> points_on_surface(std::span<const double> areas_m2);
+std::vector<PointOfTriangle> points_on_surface(std::span<const double> areas_m2);
 
 /// What red, green and blue of a picture are: colours by the tone curve of sRGB, or numbers as they are.
 enum class Texels { colours, numbers };
