@@ -233,7 +233,8 @@ InfoReport report_scene(const io::SceneFile& file, const std::string& name, cons
     json["total_flux_lm"] = total_flux_lm;
     if (const auto maintenance = scene::maintenance_factors(scene)) json["maintenance"] = *maintenance;
     json["luminaires"] = list_json(scene.solids, luminaire_json);
-    const std::vector<Sensor> sensors = checks::without_hidden_points(scene, caster, enclosures, file.sensors);
+    const std::vector<Sensor> sensors =
+        checks::without_hidden_points(scene, caster, enclosures, file.sensors);
     json["sensors"] = list_json(sensors, sensor_json);
     if (const auto power = scene::installed_power(scene); power.has_lamps())
         json["power"] = power_json(power, sensors);
