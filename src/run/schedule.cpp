@@ -150,7 +150,7 @@ estimators::Problem Session::problem() const {
     return {.scene = scene_,
             .caster = caster_,
             .max_reflections = options_.bounces.value_or(transport::kUnlimited),
-            .patches = options_.patches,
+            .patches = {options_.patches, options_.patch_m},
             .monitor = monitor_};
 }
 
