@@ -230,11 +230,6 @@ Flag& Flag::optional_value(const std::string& otherwise) {
     option_->expected(0, 1)->default_str(otherwise);
     return *this;
 }
-Flag& Flag::show_default() {
-    option_->capture_default_str();
-    return *this;
-}
-
 Flag& Flag::hidden() { return heading(""); }
 
 bool Flag::is_given() const { return option_->count() > 0; }

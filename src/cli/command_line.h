@@ -48,8 +48,6 @@ class Flag {
     /// The flag may be given without a value: its value then is `otherwise`. An argument that follows it is
     /// taken for its value.
     Flag& optional_value(const std::string& otherwise);
-    /// --help shows the present value of the variable as the default.
-    Flag& show_default();
     /// --help does not show the flag: a topic does (CommandLine::add_topic()).
     Flag& hidden();
 

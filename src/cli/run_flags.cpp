@@ -43,21 +43,21 @@ std::string list_of_methods() {
 
 }  // namespace
 
-void RunFlags::add(Command& command, std::string_view key) {
+Flag add_option(Command& command, api::Options& options, std::string_view key) {
+    std::optional<Flag> flag;
     for_each_field<api::Options>([&](const auto& option) {
         if (option.key != key) return;
-        const std::string name = fmt::format("--{}", key);
-        Flag flag = command.add(name, typed_.*option.member, std::string(option.meaning));
-        limit(flag, option.limits);
-        flag.value_name(std::string(option.placeholder));
-        flags_.push_back(flag);
+        flag = command.add(fmt::format("--{}", key), options.*option.member, std::string(option.meaning));
+        limit(*flag, option.limits);
+        flag->value_name(std::string(option.placeholder));
     });
+    return flag.value();
 }
 
 void RunFlags::add_all_but(const std::vector<std::string_view>& left_out, Command& command) {
     for_each_field<api::Options>([&](const auto& option) {
         if (option.key != "patch" && std::ranges::find(left_out, option.key) == left_out.end())
-            add(command, option.key);
+            flags_.push_back(add_option(command, typed_, option.key));
     });
     command.add("--quiet", quiet, "Print no progress and no warnings");
     command.add("--progress", progress,
@@ -95,27 +95,25 @@ void RunFlags::add_those_of_solutions(Command& command, std::optional<int>& degr
 void RunFlags::add_those_of_patches(Command& command) {
     const std::string group =
         "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: only --patch)";
-    add(command, "patch");
-    command.find(kPatchFlag).heading(group);
-    const auto add_one = [&](const char* name, auto& value, const std::string& text, const char* type) {
+    flags_.push_back(add_option(command, typed_, "patch").heading(group));
+    const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
         flags_.push_back(command.add(name, value, text).value_name(type).heading(group));
     };
-    add_one("--first-shot", first_shot_,
-            "First shot that replaces small lights: auto, none, classical, diffuse, incoming, on-the-fly "
-            "(default: auto, which is incoming; path: none)",
-            "NAME");
-    add_one(
-        "--window", window_,
+    add("--first-shot", first_shot_,
+        "First shot that replaces small lights: auto, none, classical, diffuse, incoming, on-the-fly "
+        "(default: auto, which is incoming; path: none)",
+        "NAME");
+    add("--window", window_,
         "Shape of item buffers on area lights, and on patches of radiosity: cube (its rear half is empty), "
         "hemicube (default) or tetrahedron; point lights always have cubes",
         "NAME");
-    add_one("--resolution", resolution_,
-            "Pixels along an edge of item buffers (default: by the number of patches; 64 on patches of "
-            "radiosity)",
-            "R");
-    add_one("--visibility", visibility_, "Visibility backend: rays (default) or opengl", "NAME");
-    add_one("--directions", directions_,
-            "Directions of the bundles in a step of ray-bundle: single, pair or frame (default)", "NAME");
+    add("--resolution", resolution_,
+        "Pixels along an edge of item buffers (default: by the number of patches; 64 on patches of "
+        "radiosity)",
+        "R");
+    add("--visibility", visibility_, "Visibility backend: rays (default) or opengl", "NAME");
+    add("--directions", directions_,
+        "Directions of the bundles in a step of ray-bundle: single, pair or frame (default)", "NAME");
 }
 
 void add_patch_topic(CommandLine& line) {

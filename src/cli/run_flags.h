@@ -18,6 +18,9 @@ struct EstimatorEntry;
 
 namespace stilb::cli {
 
+/// Adds the flag of an option, with its limits and meaning. Its value goes to `options`.
+Flag add_option(Command& command, api::Options& options, std::string_view key);
+
 /// The flags as typed; those of api::Options replace the same key of the scene's [run].
 class RunFlags {
   public:
@@ -44,7 +47,6 @@ class RunFlags {
     RunOptions over(RunOptions options) const;
 
   private:
-    void add(Command& command, std::string_view key);
     void add_all_but(const std::vector<std::string_view>& left_out, Command& command);
     void require_known_to(const estimators::EstimatorEntry& method) const;
     estimators::PatchMethodOptions patch_options() const;
