@@ -233,7 +233,7 @@ Flag& Flag::optional_value(const std::string& otherwise) {
 Flag& Flag::hidden() { return heading(""); }
 
 bool Flag::is_given() const { return option_->count() > 0; }
-std::string Flag::name() const { return option_->get_name(); }
+std::string Flag::name() const { return "--" + option_->get_lnames().front(); }
 
 void Command::set_footer(const std::string& text) { app_->footer(text); }
 

@@ -53,6 +53,7 @@ class Flag {
 
     /// Once the line is parsed.
     bool is_given() const;
+    /// "--error".
     std::string name() const;
 
   private:
