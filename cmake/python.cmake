@@ -25,7 +25,7 @@ target_link_libraries(stilb_python PRIVATE stilb_api stilb_exact)
 
 set(sources ${PROJECT_SOURCE_DIR}/python/stilb)
 file(GLOB modules CONFIGURE_DEPENDS ${sources}/*.py ${sources}/py.typed)
-set(stubs ${package}/_stilb/__init__.pyi ${package}/parts.pyi)
+set(stubs ${package}/_stilb/__init__.pyi ${package}/options.pyi ${package}/parts.pyi)
 add_custom_command(
   OUTPUT ${stubs}
   COMMAND ${CMAKE_COMMAND} -E copy ${modules} ${package}
@@ -36,7 +36,7 @@ add_custom_command(
 add_custom_target(stilb_package ALL DEPENDS ${stubs})
 
 install(TARGETS stilb_python LIBRARY DESTINATION stilb COMPONENT python EXCLUDE_FROM_ALL)
-install(FILES ${modules} ${package}/parts.pyi DESTINATION stilb COMPONENT python EXCLUDE_FROM_ALL)
+install(FILES ${modules} ${package}/options.pyi ${package}/parts.pyi DESTINATION stilb COMPONENT python EXCLUDE_FROM_ALL)
 install(DIRECTORY ${package}/_stilb DESTINATION stilb COMPONENT python EXCLUDE_FROM_ALL)
 if(SKBUILD)
   install(PROGRAMS $<TARGET_FILE:stilb> DESTINATION ${SKBUILD_SCRIPTS_DIR} COMPONENT python EXCLUDE_FROM_ALL)

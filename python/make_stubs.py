@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Writes the type stubs of the extension module, and of the classes that stilb/parts.py makes from the reader's lists.
+"""Writes the type stubs of the extension module, and of what stilb/parts.py and options.py make from the library's lists.
 
 Usage: make_stubs.py FOLDER     (the package, with its extension module)
 """
@@ -43,6 +43,19 @@ class Mesh(Object):
                  {}) -> None: ...
 '''
 
+OPTIONS = '''from typing import TypedDict
+
+from . import _stilb
+
+DESCRIPTION: str
+
+class Limits(TypedDict, total=False):
+    """How a run is made and when it stops: `help(stilb.Scene)`."""
+
+{}
+def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options: ...
+'''
+
 
 def open_package(folder):
     """Makes the package's modules importable without its __init__.py, which needs NumPy."""
@@ -75,6 +88,8 @@ def main():
     module, names = (importlib.import_module(f"stilb.{name}") for name in ("_stilb", "_names"))
     text, names = classes(module.part_types(), names.class_name)
     (folder / "parts.pyi").write_text(f"{HEAD}{text}\n__all__ = {sorted(names)}\n", encoding="utf-8")
+    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, _ in module.described_options())
+    (folder / "options.pyi").write_text(OPTIONS.format(keys), encoding="utf-8")
     stubgen.main(["-q", "-r", "-m", "stilb._stilb", "-O", str(folder)])
 
 

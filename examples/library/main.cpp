@@ -33,7 +33,7 @@ int main() try {
     std::printf("desk: %.2f lx, 95 %% interval %.2f to %.2f lx\n", mean.value, mean.lower, mean.upper);
 
     options = {};
-    options.samples = 16;
+    options.paths = 16;
     stilb::render(scene, "door", options).save("door.png");
 } catch (const stilb::InputError& error) {  // says what is wrong, where, and what would be right
     std::fprintf(stderr, "%s\n", error.what());

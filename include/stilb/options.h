@@ -1,39 +1,102 @@
 // How a scene is computed, and when the computation stops.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
+#include <tuple>
+#include <utility>
+
+#include "stilb/range.h"
 
 namespace stilb::api {
 
-/// Without error, time and samples, measure() stops at an error of 1 % or after a minute, render() and
-/// solve() after a minute.
+/// The limits of a whole number.
+struct WholeRange {
+    std::int64_t min = 0, max = 0;
+};
+/// The range of a number that texts can give, too: 0.01 or "1%".
+struct Share {
+    Range range;
+};
+/// The texts that are allowed.
+struct Names {
+    std::span<const std::string_view> (*all)();
+};
+
+/// One of the Options. Scene files, the command line and Python have it from Options::fields().
+template <typename Owner, typename Value, typename Limits>
+struct Option {
+    /// The type without std::optional.
+    using Plain = typename decltype(std::optional{std::declval<Value>()})::value_type;
+
+    std::string_view key;  ///< in [run] and Python; --key on the command line
+    Value Owner::*member;
+    Limits limits;
+    std::string_view unit;         ///< "s", "m" or nothing
+    std::string_view placeholder;  ///< of its value, in --help
+    std::string_view meaning;
+};
+template <typename Owner, typename Value, typename Limits>
+Option(std::string_view, Value Owner::*, Limits, std::string_view, std::string_view, std::string_view)
+    -> Option<Owner, Value, Limits>;
+
+/// The names of all methods; those that "auto" chooses from come last.
+std::span<const std::string_view> method_names();
+
+/// fields() describes them. Without error, time and paths, measure() stops at an error of 1 % or after a
+/// minute, render() and solve() after a minute.
 struct Options {
-    /// "auto", "local", "double-local", "path", "ray-bundle", "radiosity" or "particles"; or one of those
-    /// that "auto" chooses from, as Summary::technique names it.
     std::string method = "auto";
-    /// Stops when 95 % of each sensor's readings (of a picture's pixels) have a 95 % interval within this
-    /// share of their value, such as 0.01.
     std::optional<double> error;
-    /// The values that `error` is asked of: "readings", each of them, or "mean", the means and minima of all
-    /// sensors.
     std::string target = "readings";
-    /// Stops after this time [s].
     std::optional<double> time_s;
-    /// Stops after this number of samples of the technique that the result names: light paths; "path": paths
-    /// of each reading; pictures: samples of each pixel; solutions: steps of the iteration.
-    std::optional<std::uint64_t> samples;
-    /// The largest number of reflections; without it there is no limit, and no bias.
+    std::optional<std::uint64_t> paths;
     std::optional<int> bounces;
-    /// Longest edge of a patch [m], for methods that divide surfaces into patches.
     std::optional<double> patch_m;
-    /// Each seed gives an independent result; the same seed and number of samples give the same digits.
     std::uint64_t seed = 1;
-    /// 0: as many as the machine has. The result does not depend on it.
     int threads = 0;
+
+    static constexpr auto fields() {
+        return std::tuple{
+            Option{"method", &Options::method, Names{method_names}, "", "NAME",
+                   "Method of computation (default: auto)"},
+            Option{"error", &Options::error,
+                   Share{{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""}}, "", "SHARE",
+                   "Stop when 95 % of the readings of each sensor have a 95 % interval within this share of "
+                   "their value (dark ones of a hundredth of the mean): 1% or 0.01"},
+            Option{"target", &Options::target, Names{target_names}, "", "NAME",
+                   "What has this error: readings (default: 95 % of each sensor's) or mean (means and "
+                   "minima of the sensors)"},
+            Option{"time", &Options::time_s, Range{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"}, "s",
+                   "S",
+                   "Stop after this many seconds; where they do not suffice for a first result, there is "
+                   "none (exit code 3)"},
+            Option{"paths", &Options::paths, WholeRange{1, std::int64_t{1} << 53}, "", "N",
+                   "Stop after this many samples of the technique that the result names, rounded up: light "
+                   "paths (light-paths, local, double-local) to a multiple of 2048 (of more or less with "
+                   "many points), paths per reading (path) or samples (guided, radiosity) to a multiple of "
+                   "32, steps (ray-bundle) to a multiple of 512 or more, particles (particles) to a "
+                   "multiple of 131072; pictures: passes, at least 2"},
+            Option{"bounces", &Options::bounces, WholeRange{0, 1'000'000}, "", "N",
+                   "Limit the number of reflections (default: no limit, no bias)"},
+            Option{"patch", &Options::patch_m, Range{1e-6, 1e9, "a length above 0 (from 1e-6 to 1e9 m)"}, "m",
+                   "SIZE", "Longest edge of a patch [m] (default: about 10,000 patches)"},
+            Option{"seed", &Options::seed, WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", "N",
+                   "Seed of the random numbers: another seed gives an independent result"},
+            Option{"threads", &Options::threads, WholeRange{0, 4096}, "", "N",
+                   "Processor threads (default: all); the result does not depend on it"}};
+    }
+    static std::span<const std::string_view> target_names() {
+        static constexpr std::array<std::string_view, 2> names{"readings", "mean"};
+        return names;
+    }
 };
 
 struct Progress {

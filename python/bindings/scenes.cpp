@@ -2,14 +2,21 @@
 #include <fmt/format.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
+#include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
+#include <array>
+#include <optional>
 #include <span>
+#include <type_traits>
 #include <utility>
+#include <variant>
 
+#include "base/field.h"
 #include "bindings/called_run.h"
 #include "bindings/parts.h"
 #include "bindings/values.h"
@@ -34,27 +41,47 @@ std::span<const Row> rows_of(const Array& array) {
     return {reinterpret_cast<const Row*>(array.data()), array.shape(0)};
 }
 
-double read_error(const std::string& text) {
-    const auto error = run::parse_relative_error(text);
-    if (!error)
-        throw InputError(
-            fmt::format("error {}: expected a share between 0 and 1, such as 0.01 or \"1%\"", text));
-    return *error;
+/// In Python.
+template <typename Option>
+std::string type_name(const Option& option) {
+    if (std::is_same_v<std::decay_t<decltype(option.limits)>, Share>) return "float | str";
+    if (std::is_same_v<typename Option::Plain, double>) return "float";
+    return std::is_same_v<typename Option::Plain, std::string> ? "str" : "int";
+}
+
+/// One of Options, under its key.
+template <typename Limits>
+void add_option(nb::class_<Options>& options, const auto& option, const Limits&) {
+    options.def_rw(option.key.data(), option.member, nb::arg().none());
+}
+void add_option(nb::class_<Options>& options, const auto& option, const Share&) {
+    using Typed = std::optional<std::variant<double, std::string>>;
+    options.def_prop_rw(
+        option.key.data(), [option](const Options& all) { return all.*option.member; },
+        [option](Options& all, const Typed& typed) {
+            all.*option.member = std::nullopt;
+            if (!typed) return;
+            const auto* const text = std::get_if<std::string>(&*typed);
+            all.*option.member = text ? run::parse_relative_error(*text) : std::get<double>(*typed);
+            if (!(all.*option.member))
+                fail_at(option.key, fmt::format("\"{}\" is not allowed. Allowed: {}.", *text,
+                                                option.limits.range.allowed));
+        },
+        nb::arg().none());
 }
 
 void add_options(nb::module_& module) {
-    nb::class_<Options>(module, "Options")
-        .def(nb::init<>())
-        .def_rw("method", &Options::method)
-        .def_rw("error", &Options::error, nb::arg().none())
-        .def_rw("target", &Options::target)
-        .def_rw("time_s", &Options::time_s, nb::arg().none())
-        .def_rw("samples", &Options::samples, nb::arg().none())
-        .def_rw("bounces", &Options::bounces, nb::arg().none())
-        .def_rw("patch_m", &Options::patch_m, nb::arg().none())
-        .def_rw("seed", &Options::seed)
-        .def_rw("threads", &Options::threads);
-    module.def("read_error", read_error, nb::arg("text"));
+    nb::class_<Options> options(module, "Options");
+    options.def(nb::init<>());
+    std::vector<std::array<std::string, 3>> described;
+    for_each_field<Options>([&](const auto& option) {
+        add_option(options, option, option.limits);
+        described.push_back({std::string(option.key), type_name(option), std::string(option.meaning)});
+    });
+    module.def(
+        "described_options", [described] { return described; },
+        nb::sig("def described_options() -> list[list[str]]"),
+        "The key, the type and the meaning of each option.");
 }
 
 void add_builder(nb::module_& module) {

@@ -13,6 +13,7 @@ from numpy.typing import ArrayLike
 
 from . import _stilb
 from ._stilb import InputError
+from .options import DESCRIPTION, Limits, options
 from .parts import Mesh, Part, part_of
 from .progress import Progress, sink_of
 from .results import Image, Reading, Result
@@ -21,23 +22,6 @@ from .solution import Solution
 __all__ = ["Scene", "Section", "load"]
 
 SECTIONS = ("materials", "objects", "lights", "sensors")
-# The names of Limits that the C++ library has with their units, or otherwise.
-OPTION_NAMES = {"time": "time_s", "paths": "samples", "patch": "patch_m"}
-
-
-class Limits(TypedDict, total=False):
-    """How a run is made and when it stops: `help(stilb.Scene)`."""
-
-    error: float | str | None
-    time: float | None
-    paths: int | None
-    method: str | None
-    bounces: int | None
-    patch: float | None
-    seed: int | None
-    threads: int | None
-    target: str | None
-
 
 class ImportSettings(TypedDict, total=False):
     """How a scene of another program is read: `help(stilb.load)`."""
@@ -86,7 +70,7 @@ class Section(MutableMapping[str, Part]):
 
 
 class Scene:
-    """A room, its lights and its sensors.
+    __doc__ = f"""A room, its lights and its sensors.
 
     `stilb.load(path)` reads one from a file, `Scene(name)` makes an empty one, to which parts are added:
 
@@ -103,15 +87,7 @@ class Scene:
     All runs have these arguments; without `error`, `time` and `paths`, those of the scene's section `run` count, or else
     1 % or a minute:
 
-    error     stop when 95 % of each sensor's readings (of a picture's pixels) have a 95 % interval within this share
-              of their value: 0.01 or "1%"
-    time      stop after this many seconds
-    paths     stop after this many samples; replaces `error` and `time` of the section `run`
-    method    "auto", "path", "local" ... (docs/methods)
-    bounces   the largest number of reflections
-    patch     longest edge of a patch [m], for methods on patches
-    seed      another seed gives an independent result; the same seed, technique and paths give the same bits as the command line
-    threads   0: as many as the machine has; the result does not depend on it
+{DESCRIPTION}
     progress  True for a line on stderr, or a function that gets a `stilb.Progress` and may return False to end the run
               with its result so far
 
@@ -293,23 +269,6 @@ def _toml_document(path: Path) -> dict[str, Any] | None:
         return tomllib.loads(path.read_text(encoding="utf-8"))
     except ValueError:
         return None
-
-
-def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options:
-    """The options of the scene's section `run`, with these instead where they are given, as on the command line."""
-    given = {name: value for name, value in limits.items() if value is not None}
-    unknown = given.keys() - Limits.__annotations__
-    if unknown:
-        raise TypeError(f"unknown argument {min(unknown)}; allowed: {', '.join(Limits.__annotations__)}")
-    chosen = scene.options()
-    if "paths" in given:
-        chosen.error = chosen.time_s = None
-    error = given.get("error")
-    if isinstance(error, str):
-        given["error"] = _stilb.read_error(error)
-    for name, value in given.items():
-        setattr(chosen, OPTION_NAMES.get(name, name), value)
-    return chosen
 
 
 def _rays(positions: ArrayLike, directions: ArrayLike) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:

@@ -1,7 +1,6 @@
 #include "stilb/scene.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <chrono>
@@ -77,49 +76,15 @@ std::vector<std::string> Scene::sensors() const {
     return names;
 }
 
-Options Scene::options() const {
-    const RunOptions& run = data_->file.run;
-    return {.method = run.method,
-            .error = run.error,
-            .target = std::string(run::kTargetNames[static_cast<std::size_t>(run.target)]),
-            .time_s = run.time_s,
-            .samples = run.paths,
-            .bounces = run.bounces,
-            .patch_m = run.patches.patch_m,
-            .seed = run.seed,
-            .threads = run.threads};
-}
-
-namespace {
-
-run::Target target_of(const std::string& name) {
-    const auto found = std::ranges::find(run::kTargetNames, name);
-    if (found == run::kTargetNames.end()) {
-        throw InputError(fmt::format("target: there is no target \"{}\".{} Allowed: {}.", name,
-                                     did_you_mean(name, run::kTargetNames),
-                                     fmt::join(run::kTargetNames, ", ")));
-    }
-    return static_cast<run::Target>(found - run::kTargetNames.begin());
-}
-
-}  // namespace
+Options Scene::options() const { return data_->file.run; }
 
 RunOptions run_options(const Scene& scene, const std::optional<Options>& options) {
     RunOptions run = scene.data().file.run;
     if (!options) return run;
-    run.method = options->method;
-    run.error = options->error;
-    run.target = target_of(options->target);
-    run.time_s = options->time_s;
-    run.paths = options->samples;
-    run.bounces = options->bounces;
-    run.patches.patch_m = options->patch_m;
-    run.seed = options->seed;
-    run.threads = options->threads;
-    const estimators::EstimatorEntry& method = estimators::find_estimator(run.method);
-    if (options->patch_m && !method.lights_patches) {
+    const bool sets_patches = options->patch_m && options->patch_m != run.patch_m;
+    static_cast<Options&>(run) = *options;
+    if (sets_patches && !estimators::find_estimator(run.method).lights_patches)
         throw InputError(fmt::format("patch_m: method {} does not use patches.", run.method));
-    }
     return run;
 }
 

@@ -21,16 +21,9 @@
 #include <tuple>
 
 #include "base/rgb.h"
+#include "stilb/range.h"
 
 namespace stilb {
-
-/// The range of a parameter, and its description for messages: "2 is not allowed. Allowed: {allowed}".
-struct Range {
-    double min = 0, max = 0;
-    std::string_view allowed;
-
-    constexpr bool contains(double value) const { return value >= min && value <= max; }
-};
 
 inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
 

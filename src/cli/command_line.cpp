@@ -6,12 +6,14 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <limits>
 #include <string_view>
 #include <type_traits>
 #include <utility>
 
 #include "base/version.h"
 #include "io/text/text.h"
+#include "run/options.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {
@@ -152,15 +154,6 @@ std::string require_number(std::string& typed) {
     return fmt::format("{} is not a number. Write it as 20 or 0.25, for example.", io::in_quotes(typed));
 }
 
-template <typename T>
-struct ValueOf {
-    using Type = T;
-};
-template <typename T>
-struct ValueOf<std::optional<T>> {
-    using Type = T;
-};
-
 }  // namespace
 
 Flag& Flag::required() {
@@ -192,6 +185,36 @@ Flag& Flag::from_to(std::int64_t least, std::int64_t greatest) {
         greatest <= greatest_shown ? fmt::format("{} to {}", least, greatest) : ""));
     return *this;
 }
+Flag& Flag::within(const Range& range) {
+    option_->check(CLI::Validator(
+        [range](const std::string& typed) -> std::string {
+            const double number = io::parse_number(typed).value_or(std::numeric_limits<double>::quiet_NaN());
+            return range.contains(number) ? "" : refusal(number, range);
+        },
+        ""));
+    return *this;
+}
+Flag& Flag::share(const Range& range) {
+    option_->transform(CLI::Validator(
+        [range](std::string& typed) -> std::string {
+            const auto share = run::parse_relative_error(typed);
+            if (!share) return fmt::format("{} is not allowed. Allowed: {}.", typed, range.allowed);
+            typed = fmt::format("{}", *share);
+            return "";
+        },
+        ""));
+    return within(range);
+}
+Flag& Flag::one_of(std::span<const std::string_view> names) {
+    option_->check(CLI::Validator(
+        [names](const std::string& typed) -> std::string {
+            if (std::ranges::find(names, typed) != names.end()) return "";
+            return fmt::format("{} is not allowed.{} Allowed: {}.", io::in_quotes(typed),
+                               did_you_mean(typed, names), fmt::join(names, ", "));
+        },
+        ""));
+    return *this;
+}
 Flag& Flag::above_zero() {
     option_->check(CLI::Validator(
         [](const std::string& typed) -> std::string {
@@ -210,12 +233,10 @@ Flag& Flag::optional_value(const std::string& otherwise) {
     option_->expected(0, 1)->default_str(otherwise);
     return *this;
 }
-Flag& Flag::show_default() {
-    option_->capture_default_str();
-    return *this;
-}
-
 Flag& Flag::hidden() { return heading(""); }
+
+bool Flag::is_given() const { return option_->count() > 0; }
+std::string Flag::name() const { return "--" + option_->get_lnames().front(); }
 
 void Command::set_footer(const std::string& text) { app_->footer(text); }
 
@@ -230,11 +251,10 @@ Flag Command::add(const std::string& names, T& value, const std::string& descrip
     if constexpr (std::is_same_v<T, bool>) {
         return Flag(*app_->add_flag(names, value, description));
     } else {
+        using Value = typename decltype(std::optional{value})::value_type;
         CLI::Option* const option = app_->add_option(names, value, description);
-        if constexpr (std::is_integral_v<typename ValueOf<T>::Type>)
-            option->transform(CLI::Validator(write_in_digits, ""));
-        if constexpr (std::is_floating_point_v<typename ValueOf<T>::Type>)
-            option->transform(CLI::Validator(require_number, ""));
+        if constexpr (std::is_integral_v<Value>) option->transform(CLI::Validator(write_in_digits, ""));
+        if constexpr (std::is_floating_point_v<Value>) option->transform(CLI::Validator(require_number, ""));
         return Flag(*option);
     }
 }

@@ -6,8 +6,12 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
+
+#include "base/field.h"
 
 namespace CLI {  // NOLINT(readability-identifier-naming): the name of the library
 class App;
@@ -33,16 +37,24 @@ class Flag {
     Flag& heading(const std::string& text);
     Flag& description(const std::string& text);
     Flag& from_to(std::int64_t least, std::int64_t greatest);
+    Flag& within(const Range& range);
+    /// A number within the range, also in per cent: 0.01 or 1%.
+    Flag& share(const Range& range);
+    /// The names must outlive the parsing.
+    Flag& one_of(std::span<const std::string_view> names);
     Flag& above_zero();
     /// The flag takes one value each time it is given, and may be repeated.
     Flag& repeatable();
     /// The flag may be given without a value: its value then is `otherwise`. An argument that follows it is
     /// taken for its value.
     Flag& optional_value(const std::string& otherwise);
-    /// --help shows the present value of the variable as the default.
-    Flag& show_default();
     /// --help does not show the flag: a topic does (CommandLine::add_topic()).
     Flag& hidden();
+
+    /// Once the line is parsed.
+    bool is_given() const;
+    /// "--error".
+    std::string name() const;
 
   private:
     CLI::Option* option_;

@@ -18,33 +18,13 @@ struct EstimatorEntry;
 
 namespace stilb::cli {
 
-// The flags of patches and first shot.
+/// Adds the flag of an option, with its limits and meaning. Its value goes to `options`.
+Flag add_option(Command& command, api::Options& options, std::string_view key);
 
-struct PatchFlags {
-    std::optional<double> patch_m;
-    std::optional<std::string> first_shot, window, visibility, directions;
-    std::optional<int> resolution;
-
-    void add_to(Command& command);
-    /// Leaves all but --patch to `stilb help patches`.
-    static void hide_in(Command& command);
-    /// Throws InputError where a given flag does not apply to the method, or has no such value.
-    estimators::PatchOptions options_for(const std::string& method) const;
-    /// The names of the flags that were typed.
-    std::vector<std::string_view> given() const;
-
-  private:
-    void require_known_to(const estimators::EstimatorEntry& method) const;
-};
-
-/// The flags as typed; each replaces the same key of the scene's [run].
-struct RunFlags {
-    std::optional<std::string> method, error;
-    std::optional<double> time_s;
-    std::optional<std::uint64_t> paths, seed;
-    std::optional<int> bounces, threads;
+/// The flags as typed; those of api::Options replace the same key of the scene's [run].
+class RunFlags {
+  public:
     bool quiet = false, progress = false;
-    PatchFlags patches;
 
     ShowProgress show_progress() const {
         if (quiet) return ShowProgress::never;
@@ -52,18 +32,29 @@ struct RunFlags {
     }
     OffTerminal off_terminal() const { return progress ? OffTerminal::plain_lines : OffTerminal::nothing; }
 
-    void add_to(Command& command);
-    /// Adds those of solutions: all flags except --method and --bounces, and --degree.
+    // Commands keep a reference to the flags.
+
+    /// `left_out`: keys of api::Options without a flag.
+    void add_to(Command& command, const std::vector<std::string_view>& left_out = {});
+    /// Adds those of solutions, and --degree.
     void add_those_of_solutions(Command& command, std::optional<int>& degree);
+    /// Adds those of patches and first shot, which add_to() leaves to `stilb help patches`.
+    void add_those_of_patches(Command& command);
     /// The names of the typed flags, except --threads and --quiet.
-    std::vector<std::string_view> given() const;
+    std::vector<std::string> given() const;
     /// The options with the typed flags applied. --paths alone drops the file's error and time: exactly so
-    /// many paths are done.
+    /// many paths are done. Throws InputError where a flag has no effect with the method.
     RunOptions over(RunOptions options) const;
 
   private:
-    /// All flags except --method and --bounces.
-    void add_those_of_all(Command& command);
+    void add_all_but(const std::vector<std::string_view>& left_out, Command& command);
+    void require_known_to(const estimators::EstimatorEntry& method) const;
+    estimators::PatchMethodOptions patch_options() const;
+
+    api::Options typed_;
+    std::vector<Flag> flags_;
+    std::optional<std::string> first_shot_, window_, visibility_, directions_;
+    std::optional<int> resolution_;
 };
 
 /// Keeps `time_s` seconds of a time limit, but half of it at most, for statistics and files.

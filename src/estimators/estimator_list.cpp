@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "stilb/error.h"
+#include "stilb/options.h"
 
 namespace stilb::estimators {
 
@@ -112,13 +113,25 @@ std::vector<std::string_view> luminance_methods() {
 }
 
 const EstimatorEntry& find_estimator(std::string_view name) {
-    std::vector<std::string_view> names;
-    for (const EstimatorEntry& entry : estimator_list()) {
-        if (entry.name == name) return entry;
-        names.push_back(entry.name);
-    }
+    const std::span<const std::string_view> names = api::method_names();
+    const auto found = std::ranges::find(names, name);
+    if (found != names.end()) return estimator_list()[static_cast<std::size_t>(found - names.begin())];
     throw InputError(fmt::format("unknown method \"{}\".{} Methods: {}.", name, did_you_mean(name, names),
                                  fmt::join(names, ", ")));
 }
 
 }  // namespace stilb::estimators
+
+namespace stilb::api {
+
+std::span<const std::string_view> method_names() {
+    static const std::vector<std::string_view> names = [] {
+        std::vector<std::string_view> all;
+        for (const estimators::EstimatorEntry& entry : estimators::estimator_list())
+            all.push_back(entry.name);
+        return all;
+    }();
+    return names;
+}
+
+}  // namespace stilb::api

@@ -44,7 +44,7 @@ std::string reached_text(const RunResult& result, const RunOptions& options) {
             "value.",
             attained);
     const double wanted = *result.requested_error;
-    if (options.target == Target::mean) {
+    if (run::is_error_of_means(options)) {
         return fmt::format(
             "An error of {:g} % was requested for the mean and the minimum of each sensor; the largest is "
             "{}.",

@@ -60,7 +60,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
       glare_(glare),
       possible_(possible),
       expected_largest_(estimator.expected_largest()),
-      target_(options.target),
+      targets_means_(is_error_of_means(options)),
       part_(part),
       packets_(estimator.packets()),
       state_(state) {
@@ -209,7 +209,7 @@ void Campaign::set_paces() {
 
 double Campaign::attained_error() const {
     if (is_part()) return std::numeric_limits<double>::infinity();
-    if (target_ == Target::mean)
+    if (targets_means_)
         return attained_error_of_means(sensors_,
                                        estimate_all(*this, sensors_, statistics::kStoppedConfidence));
     double worst = 0;

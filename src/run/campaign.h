@@ -118,7 +118,7 @@ class Campaign final : public Work {
     const GlareViews& glare_;
     const PossibleLight& possible_;
     std::vector<double> expected_largest_;
-    Target target_;
+    bool targets_means_;
     RunPart part_;
     std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
     RunState& state_;

@@ -1,28 +1,44 @@
 #include "run/options.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <charconv>
-#include <cmath>
+#include <concepts>
+#include <utility>
 
 #include "stilb/error.h"
 
 namespace stilb::run {
 
+namespace {
+
+void expect_allowed(double value, const Range& limits, const std::string& key) {
+    expect_inside(value, limits, key);
+}
+void expect_allowed(double value, const api::Share& limits, const std::string& key) {
+    expect_inside(value, limits.range, key);
+}
+template <std::integral Value>
+void expect_allowed(Value value, const api::WholeRange& limits, const std::string& key) {
+    if (std::cmp_less(value, limits.min) || std::cmp_greater(value, limits.max))
+        fail_at(key, fmt::format("{} is not allowed. Allowed: a whole number from {} to {}.", value,
+                                 limits.min, limits.max));
+}
+void expect_allowed(const std::string& value, const api::Names& limits, const std::string& key) {
+    const std::span<const std::string_view> all = limits.all();
+    if (std::ranges::find(all, value) == all.end())
+        fail_at(key, fmt::format("\"{}\" is not allowed.{} Allowed: {}.", value, did_you_mean(value, all),
+                                 fmt::join(all, ", ")));
+}
+
+}  // namespace
+
 void require_valid(const RunOptions& options) {
-    const auto positive = [](const char* name, double value) {
-        if (!(value > 0) || !std::isfinite(value)) {
-            throw InputError(fmt::format("{} = {}: expected a number above 0", name, value));
-        }
-    };
-    if (options.error && !(*options.error > 0 && *options.error < 1)) {
-        throw InputError(
-            fmt::format("error = {}: expected a share between 0 and 1, such as 0.01", *options.error));
-    }
-    if (options.time_s) positive("time", *options.time_s);
-    if (options.paths) positive("paths", static_cast<double>(*options.paths));
-    if (options.bounces && *options.bounces < 0) throw InputError("bounces: expected 0 or more");
-    if (options.threads < 0) throw InputError("threads: expected 0 (all) or more");
+    for_each_value(options, [](const auto& option, const auto& value) {
+        expect_allowed(value, option.limits, std::string(option.key));
+    });
     if (options.replicates && *options.replicates < 2) throw InputError("replicates: expected 2 or more");
 }
 

@@ -1,46 +1,27 @@
-// The options of a run: plain values.
+// The options of a run: those that users set (stilb/options.h), and those of the program.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "base/field.h"
 #include "estimators/patch_light/patch_options.h"
+#include "stilb/options.h"
 
 namespace stilb::run {
-
-/// What the error of a run of readings is that of: single readings, or means and minima of the sensors.
-enum class Target { readings, mean };
-/// In the order of the enumeration.
-inline constexpr std::array<std::string_view, 2> kTargetNames{"readings", "mean"};
 
 /// Whether a run makes all checks, or only those that refuse scenes: for who shows no warnings.
 enum class Checks { all, refusals };
 
-struct RunOptions {
-    std::string method = "auto";
-    /// The run stops at this relative half-width of the 95 % interval, met by 95 % of each sensor's readings
-    /// (of a picture's pixels, of a solution's light), or as `target` says.
-    std::optional<double> error;
-    Target target = Target::readings;
-    std::optional<double> time_s;
+struct RunOptions : api::Options {
     /// The part of time_s that the caller needs after the run, for example to write files.
     double reserved_s = 0;
-    /// The total number of samples, as RunSummary's.
-    std::optional<std::uint64_t> paths;
-    /// The largest number of reflections; unlimited where absent (Russian roulette then ends paths without
-    /// bias).
-    std::optional<int> bounces;
-    std::uint64_t seed = 1;
-    /// The number of threads; 0: all that the machine has.
-    int threads = 0;
     Checks checks = Checks::all;
     /// The number of independent repetitions, from which standard errors of readings are estimated (theory
     /// 6). Absent: 8 where readings lie side by side in large grids, else 32.
     std::optional<int> replicates;
-    estimators::PatchOptions patches;
+    estimators::PatchMethodOptions patches;
 };
 
 /// Whether a run of readings ends as soon as all requirements are decided: unless an error is asked for, or a
@@ -49,7 +30,23 @@ inline bool ends_when_decided(const RunOptions& options) {
     return !options.error && (!options.paths || options.time_s);
 }
 
-/// Throws InputError where an option is out of its range.
+/// Whether the error is that of means and minima of the sensors instead of single readings.
+inline bool is_error_of_means(const RunOptions& options) { return options.target == "mean"; }
+
+/// Calls `visit(option, value)` for each of api::Options that has a value.
+template <typename Visit>
+void for_each_value(const api::Options& options, const Visit& visit) {
+    for_each_field<api::Options>([&](const auto& option) {
+        const auto& value = options.*option.member;
+        if constexpr (requires { value.has_value(); }) {
+            if (value) visit(option, *value);
+        } else {
+            visit(option, value);
+        }
+    });
+}
+
+/// Throws InputError where an option is outside of its limits.
 void require_valid(const RunOptions& options);
 
 /// "0.01" or "1%" as 0.01; nothing for other texts and for values outside of 0 to 1.
@@ -59,5 +56,4 @@ std::optional<double> parse_relative_error(std::string_view text);
 
 namespace stilb {
 using run::RunOptions;
-using run::Target;
 }  // namespace stilb

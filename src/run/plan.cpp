@@ -25,7 +25,7 @@ RunPlan RunPlan::of(std::span<const Sensor> sensors, const RunOptions& options, 
     if (are_large_grids) {
         plan.replicates = kFewReplicates;
         plan.pools_errors = true;
-        plan.has_paces = options.target == Target::readings;
+        plan.has_paces = !is_error_of_means(options);
     }
     if (options.replicates) plan.replicates = static_cast<std::size_t>(*options.replicates);
     return plan;

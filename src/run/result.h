@@ -59,7 +59,7 @@ struct RunSummary {
     bool converged = true;
     std::optional<double> requested_error;  ///< relative half-width, where there was a limit on it
     /// Relative half-width that 95 % meet: of the readings of the worst sensor, of the pixels, or of the
-    /// light on the sides of patches. With Target::mean the worst one of means and minima.
+    /// light on the sides of patches. With the target "mean" the worst one of means and minima.
     double attained_error = 0;
     std::optional<estimators::PatchReport> patches;  ///< for methods on patches
     std::vector<LevelOfDetail> levels_of_detail;

@@ -164,7 +164,7 @@ estimators::Problem Session::problem() const {
     return {.scene = scene(),
             .caster = caster(),
             .max_reflections = options_.bounces.value_or(transport::kUnlimited),
-            .patches = options_.patches,
+            .patches = {options_.patches, options_.patch_m},
             .monitor = monitor_};
 }
 

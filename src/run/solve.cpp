@@ -209,12 +209,13 @@ SolveResult solve(const PreparedScene& prepared, const RunOptions& asked_options
     options.method = kMethod;
     Session session(prepared, {}, asked_options, options, progress, interrupt);
     std::vector<Warning> of_scene = session.scene_warnings({});
-    if (!options.patches.patch_m) options.patches.patch_m = patches::patch_size_m(scene, kSolutionPatches);
+    if (!options.patch_m) options.patch_m = patches::patch_size_m(scene, kSolutionPatches);
     SolveResult result;
     result.technique = kMethod;
     session.on_threads([&] {
         const Monitor& monitor = session.monitor();
-        const estimators::PatchTransport transport(scene, session.caster(), options.patches, monitor);
+        const estimators::PatchTransport transport(scene, session.caster(),
+                                                   {options.patches, options.patch_m}, monitor);
         const LightGroups groups = scene::light_groups(scene);
         Walks walks(transport, degree, groups, options.seed, monitor, sink);
         session.run(walks, result);

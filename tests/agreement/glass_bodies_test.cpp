@@ -84,7 +84,7 @@ Seen seen(const std::string& glass, const std::string& method = "auto") {
     RunOptions options;
     options.method = method;
     options.paths = 16384;
-    if (method == "ray-bundle") options.patches.patch_m = 100;
+    if (method == "ray-bundle") options.patch_m = 100;
     const RunResult result = run::measure(file.scene, file.sensors, options);
     Seen seen{result.sensors[0].readings[0].estimate, result.sensors[1].readings[0].estimate, {}};
     std::ranges::copy_if(

@@ -59,7 +59,7 @@ stilb::SceneBuilder room() {
 
 stilb::Options few_samples() {
     stilb::Options options;
-    options.samples = 4096;
+    options.paths = 4096;
     return options;
 }
 
@@ -154,7 +154,7 @@ TEST(Library, OptionsAreThoseOfTheSceneUnlessOthersAreGiven) {
     EXPECT_EQ(scene.sensors(), (std::vector<std::string>{"desk", "spot", "view"}));
     const stilb::Options options = scene.options();
     EXPECT_EQ(options.method, "path");
-    EXPECT_EQ(options.samples, 2048u);
+    EXPECT_EQ(options.paths, 2048u);
     const stilb::Result result = stilb::measure(scene);
     EXPECT_EQ(result.method, "path");
     EXPECT_EQ(result.samples, 2048u);
@@ -229,7 +229,7 @@ array = { origin = [1, 1, 2], step_u = [1, 0, 0], step_v = [0, 1, 0], count = [2
 )");
     EXPECT_EQ(built.options().target, "mean");
     stilb::Options options = built.options();
-    options.samples = 32;
+    options.paths = 32;
     const stilb::Result a = stilb::measure(built, options), b = stilb::measure(read, options);
     EXPECT_EQ(a["desk"].mean.value, b["desk"].mean.value);
     options.target = "men";
@@ -308,7 +308,7 @@ TEST(Library, RunsAreFollowedAndInterrupted) {
 
 TEST(Library, PicturesHavePixelsAndErrors) {
     stilb::Options options;
-    options.samples = 16;
+    options.paths = 16;
     const stilb::Picture picture = stilb::render(room().build(), "", options);
     ASSERT_EQ(picture.luminance_cd_m2.size(), 12u * 8u);
     EXPECT_EQ(picture.width, 12);
@@ -326,12 +326,12 @@ TEST(Library, SolutionsShowWhatRenderingDoes) {
     const stilb::TestFolder folder;
     const stilb::Scene scene = stilb::Scene::load(folder.write("room.toml", std::string(kRoom)));
     stilb::Options options;
-    options.samples = 512;
+    options.paths = 512;
     options.patch_m = 0.5;
     const stilb::Solution solution = stilb::solve(scene, options);
     const stilb::Picture stored = solution.render("view");
     options.method = "ray-bundle";
-    options.samples = 32;
+    options.paths = 32;
     const stilb::Picture direct = stilb::render(scene, "view", options);
     double stored_sum = 0, direct_sum = 0;
     for (std::size_t i = 0; i < stored.luminance_cd_m2.size(); ++i) {

@@ -154,7 +154,7 @@ void expect_readable(std::uint64_t seed) {
     options.method = "ray-bundle";
     options.seed = seed;
     options.paths = 16 + 8 * static_cast<std::uint64_t>(random.whole(12));
-    options.patches.patch_m = random.size_m() * (0.4 + 0.1 * random.whole(8));
+    options.patch_m = random.size_m() * (0.4 + 0.1 * random.whole(8));
     const bool has_points = std::ranges::any_of(
         scene.lights, [](const Light& light) { return location_of(light) == LightLocation::point; });
     if (!has_points && random.whole(2) == 0)

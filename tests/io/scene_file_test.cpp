@@ -85,6 +85,7 @@ error = "1%"
 time = 60
 paths = 1e6
 bounces = 10
+patch = 0.5
 seed = 7
 threads = 2
 )";
@@ -133,6 +134,7 @@ TEST(SceneFile, ReadsRunOptions) {
     EXPECT_EQ(run.time_s, 60);
     EXPECT_EQ(run.paths, 1000000u);
     EXPECT_EQ(run.bounces, 10);
+    EXPECT_EQ(run.patch_m, 0.5);
     EXPECT_EQ(run.seed, 7u);
     EXPECT_EQ(run.threads, 2);
 }
@@ -140,7 +142,7 @@ TEST(SceneFile, ReadsRunOptions) {
 TEST(SceneFile, LeavesRunOptionsAtTheirDefaults) {
     const RunOptions run = read_scene_text("[run]\nseed = 0").run;
     EXPECT_EQ(run.method, "auto");
-    EXPECT_FALSE(run.error || run.time_s || run.paths || run.bounces);
+    EXPECT_FALSE(run.error || run.time_s || run.paths || run.bounces || run.patch_m);
     EXPECT_EQ(run.seed, 0u);
     EXPECT_EQ(run.threads, 0);
 }
@@ -206,7 +208,7 @@ TEST(SceneFile, RefusesWrongRunOptions) {
     EXPECT_REFUSAL("[run]\nmetod = \"auto\"",
                    "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, "
                    "target, time, paths, "
-                   "bounces, seed, threads, maintenance.");
+                   "bounces, patch, seed, threads, maintenance.");
     const std::string share = " is not allowed. Allowed: a share between 0 and 1, such as 0.01 or \"1%\".";
     EXPECT_REFUSAL("[run]\nerror = 0", "s.toml:2: run.error: 0" + share);
     EXPECT_REFUSAL("[run]\nerror = -0.1", "s.toml:2: run.error: -0.1" + share);

@@ -133,8 +133,8 @@ TEST(SceneRequirements, RefusesWhatIsNoRequirement) {
 }
 
 TEST(SceneRun, HasATarget) {
-    EXPECT_EQ(read_scene_text("[run]\nerror = 0.01\ntarget = \"mean\"").run.target, Target::mean);
-    EXPECT_EQ(read_scene_text("[run]\nerror = 0.01").run.target, Target::readings);
+    EXPECT_EQ(read_scene_text("[run]\nerror = 0.01\ntarget = \"mean\"").run.target, "mean");
+    EXPECT_EQ(read_scene_text("[run]\nerror = 0.01").run.target, "readings");
     EXPECT_REFUSAL(
         "[run]\ntarget = \"means\"",
         "s.toml:2: run.target: unknown target \"means\". Did you mean \"mean\"? Allowed: readings, "

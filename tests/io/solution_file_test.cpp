@@ -26,7 +26,7 @@ StoredSolution sample_solution() {
     add_point_light(scene, {1, 1, 1.5}, Rgb::grey(100));
     RunOptions options;
     options.paths = 8;
-    options.patches.patch_m = 2;
+    options.patch_m = 2;
     SolveResult result = solve(scene, options, 2);
     return {"0.1.0", "rooms/room.toml",         "0123456789abcdef", 7, result.samples,
             0.02,    std::move(result.solution)};

@@ -160,7 +160,7 @@ void verify(const AgreementScene& entry, std::span<Way> chosen, Rows& rows) {
         bool holds = true;
         fmt::print("{:12} {:34}", entry.name, way.name);
         for (const double size_m : kSizes_m) {
-            way.options.patches.patch_m = size_m;
+            way.options.patch_m = size_m;
             // Bins of directions are part of what classical first shot divides.
             way.options.patches.first_shot.bin_rings = static_cast<int>(4.8 / size_m);
             fmt::print(" | {:4} m", size_m);

@@ -162,7 +162,7 @@ int verify(std::size_t seeds) {
     }
     RunOptions by_error;
     by_error.error = 0.02;
-    by_error.target = Target::mean;
+    by_error.target = "mean";
     is_right = cover("auto, means to 2 %", scene, by_error, truth, seeds) && is_right;
     RunOptions looking;
     looking.paths = 1 << 16;

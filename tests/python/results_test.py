@@ -232,11 +232,11 @@ class Runs(unittest.TestCase):
             measure_for(0.001)
 
     def test_wrong_options_are_refused(self):
-        for options, message in [({"error": "x"}, "error x: expected a share"), ({"method": "paths"}, "Did you mean \"path\""),
+        for options, message in [({"error": "x"}, "error: \"x\" is not allowed. Allowed: a share"), ({"method": "paths"}, "Did you mean \"path\""),
                                  ({"target": "means"}, 'Did you mean "mean"')]:
             with self.assertRaisesRegex(stilb.InputError, message):
                 built().measure(**options)
-        with self.assertRaisesRegex(TypeError, "unknown argument eror; allowed: error, time, paths"):
+        with self.assertRaisesRegex(TypeError, "unknown argument eror; allowed: method, error, target, time, paths"):
             built().measure(eror=0.01)
 
 

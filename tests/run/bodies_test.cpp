@@ -43,7 +43,7 @@ RunOptions body_options(const std::string& method, std::uint64_t paths, std::uin
     options.method = method;
     options.paths = method == "ray-bundle" ? paths / 16 : paths;  // a step does more than a path
     options.seed = seed;
-    options.patches.patch_m = 0.5;
+    options.patch_m = 0.5;
     return options;
 }
 
@@ -227,7 +227,7 @@ TEST(Bodies, PatchMethodsAgreeWithPathTracing) {
     const RunResult exact = measure(scene, bodies, body_options("auto", 1 << 17));
     for (const std::string method : {"ray-bundle", "radiosity", "particles"}) {
         RunOptions options = body_options(method, method == "particles" ? 1 << 19 : 1 << 13);
-        options.patches.patch_m = 0.45;
+        options.patch_m = 0.45;
         const RunResult result = measure(scene, bodies, options);
         for (std::size_t b = 0; b < 4; ++b) {
             const double value = estimate(exact, b).value;

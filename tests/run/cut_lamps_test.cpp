@@ -42,7 +42,7 @@ std::vector<statistics::Estimate> readings_under_cut_lamps(const Scene& scene, c
     options.method = method;
     options.paths = 256;
     options.seed = seed;
-    options.patches.patch_m = 0.8;
+    options.patch_m = 0.8;
     std::vector<statistics::Estimate> readings;
     const RunResult result = measure(scene, {&sensor, 1}, options);
     for (const Reading& reading : result.sensors[0].readings) readings.push_back(reading.estimate);

@@ -94,7 +94,7 @@ RunOptions edge_options(const std::string& method) {
     options.method = method;
     options.paths =
         method == "ray-bundle" || method == "guided" ? 512 : 1 << 13;  // a step does more than a path
-    options.patches.patch_m = 0.25;
+    options.patch_m = 0.25;
     return options;
 }
 

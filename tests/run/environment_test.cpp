@@ -42,7 +42,7 @@ RunOptions options_of(const std::string& method, std::uint64_t paths) {
     RunOptions options;
     options.method = method;
     options.paths = paths;
-    options.patches.patch_m = 0.7;
+    options.patch_m = 0.7;
     options.patches.first_shot.variant = estimators::FirstShotVariant::none;
     return options;
 }

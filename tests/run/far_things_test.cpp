@@ -135,7 +135,7 @@ TEST(FarThings, ChangeNoReadingByPatchesOfAClosedRoom) {
         RunOptions options;
         options.method = method;
         options.paths = method == "particles" ? 1 << 18 : 1024;
-        options.patches.patch_m = patch_m;
+        options.patch_m = patch_m;
         options.patches.resolution = 128;
         std::vector<statistics::Estimate> found;
         for (const SensorResult& sensor : measure(scene, sensors_of_room(at), options).sensors) {
@@ -421,7 +421,7 @@ TEST(FarThings, HallsAreAsBrightByRayBundlesBelowAndAbove64m) {
         RunOptions options;
         options.method = "ray-bundle";
         options.paths = 1024;
-        options.patches.patch_m = 8;
+        options.patch_m = 8;
         const Sensor points =
             point_sensor({{{0, 0, -half_m}, kUp}, {{half_m / 2, half_m / 2, -half_m}, kUp}});
         const auto readings = measure(hall.scene, {&points, 1}, options).sensors[0].readings;

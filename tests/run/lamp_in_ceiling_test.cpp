@@ -26,7 +26,7 @@ std::vector<statistics::Estimate> readings_below_ceiling(const Scene& scene, con
     RunOptions options;
     options.method = method;
     options.paths = 256;
-    options.patches.patch_m = 1.2;
+    options.patch_m = 1.2;
     std::vector<statistics::Estimate> readings;
     const RunResult result = measure(scene, {&sensor, 1}, options);
     for (const Reading& reading : result.sensors[0].readings) readings.push_back(reading.estimate);

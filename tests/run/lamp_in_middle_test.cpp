@@ -29,7 +29,7 @@ void expect_light_of_lamp(const Scene& scene, const std::vector<MeasuringPoint>&
         RunOptions options;
         options.method = entry.name;
         options.paths = 16;
-        options.patches.patch_m = 4;
+        options.patch_m = 4;
         const RunResult result = measure(scene, {&sensor, 1}, options);
         for (std::size_t i = 0; i < points.size(); ++i) {
             const double distance_m = length(points[i].position);

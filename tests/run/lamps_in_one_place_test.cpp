@@ -27,7 +27,7 @@ std::vector<statistics::Estimate> readings_of(const Scene& scene, const Sensor& 
     RunOptions options;
     options.method = method;
     options.paths = 4096;
-    options.patches.patch_m = 1;
+    options.patch_m = 1;
     std::vector<statistics::Estimate> readings;
     const RunResult result = measure(scene, {&sensor, 1}, options);
     for (const Reading& reading : result.sensors[0].readings) readings.push_back(reading.estimate);

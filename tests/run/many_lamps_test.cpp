@@ -95,7 +95,7 @@ void expect_sum(const AddLamp& add, int count, std::string_view method) {
     RunOptions options;
     options.method = method;
     options.paths = method == "path" ? 32768 : 512;
-    options.patches.patch_m = 4;
+    options.patch_m = 4;
     const RunResult result = measure(scene, {&sensor, 1}, options);
     const statistics::Estimate& found = result.sensors[0].readings[0].estimate;
     EXPECT_NEAR(found.value, sum_lx, 1e-3 * sum_lx + 4 * found.standard_error)
@@ -133,7 +133,7 @@ statistics::Estimate mean_of(const Scene& scene, std::string_view method, std::u
     RunOptions options;
     options.method = method;
     options.paths = paths;
-    options.patches.patch_m = 1.5;
+    options.patch_m = 1.5;
     return measure(scene, {&grid, 1}, options).sensors[0].summary.mean;
 }
 
@@ -177,7 +177,7 @@ TEST(ManyLamps, OneOfManyVerticesLosesNoLight) {
         RunOptions options;
         options.method = "ray-bundle";
         options.paths = 512;
-        options.patches.patch_m = 1.5;
+        options.patch_m = 1.5;
         const Sensor point = point_sensor({{{5, 5, 0.75}, {0, 0, 1}}});
         const auto patches = measure(scene, {&point, 1}, options).patches;
         ASSERT_TRUE(patches);
@@ -195,7 +195,7 @@ TEST(ManyLamps, ThatFillTheMemoryAreRefused) {
     RunOptions options;
     options.method = "ray-bundle";
     options.paths = 512;
-    options.patches.patch_m = 0.2;
+    options.patch_m = 0.2;
     try {
         measure(scene, {&point, 1}, options);
         FAIL();

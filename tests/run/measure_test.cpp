@@ -37,7 +37,7 @@ RunOptions measure_options(std::string_view method) {
     RunOptions options;
     options.method = method;
     options.paths = 4096;
-    options.patches.patch_m = 1;
+    options.patch_m = 1;
     return options;
 }
 

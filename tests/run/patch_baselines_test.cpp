@@ -44,7 +44,7 @@ Scene furnished_baseline_room() {
 RunOptions baseline_options(const std::string& method, double patch_m, std::uint64_t particles = 1 << 20) {
     RunOptions options;
     options.method = method;
-    options.patches.patch_m = patch_m;
+    options.patch_m = patch_m;
     options.patches.shot_resolution = 32;
     options.paths = method == "particles" ? particles : 1 << 12;
     return options;

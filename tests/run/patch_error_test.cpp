@@ -30,7 +30,7 @@ Scene sobolevs_planes() {
 RunOptions coarse_options(const std::string& method, double patch_m) {
     RunOptions options;
     options.method = method;
-    options.patches.patch_m = patch_m;
+    options.patch_m = patch_m;
     options.paths = method == "particles" ? 1 << 18 : 1 << 10;
     return options;
 }
@@ -134,7 +134,7 @@ TEST(PatchErrorOfPictures, IsInTheStatedError) {
     EXPECT_FALSE(exact.patch_error);
 
     options.method = "ray-bundle";
-    options.patches.patch_m = 1;
+    options.patch_m = 1;
     options.paths = 64;
     const auto expect_stated = [&](const RenderResult& result) {
         const double found = relative_rms_difference(result, exact);

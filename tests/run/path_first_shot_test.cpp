@@ -45,7 +45,7 @@ RunOptions path_options(std::uint64_t paths, std::optional<estimators::FirstShot
     options.method = "path";
     options.paths = paths;
     options.patches.first_shot.variant = variant;
-    options.patches.patch_m = patch_m;
+    options.patch_m = patch_m;
     return options;
 }
 
@@ -162,7 +162,7 @@ TEST(PathFirstShot, PicturesShowTheLights) {
     const Scene scene = mirror_room();
     const RenderResult plain = render(scene, camera, options);
     options.patches.first_shot.variant = estimators::FirstShotVariant::incoming;
-    options.patches.patch_m = 0.15;
+    options.patch_m = 0.15;
     const RenderResult flat = render(scene, camera, options);
     EXPECT_NEAR(flat.mean_luminance_cd_m2, plain.mean_luminance_cd_m2, 0.01 * plain.mean_luminance_cd_m2);
     EXPECT_LT(flat.mean_standard_error_cd_m2, plain.mean_standard_error_cd_m2);

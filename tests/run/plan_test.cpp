@@ -71,7 +71,7 @@ RunOptions options_of(const char* method, std::optional<std::uint64_t> paths) {
     RunOptions options;
     options.method = method;
     options.paths = paths;
-    if (estimators::find_estimator(method).lights_patches) options.patches.patch_m = 1;
+    if (estimators::find_estimator(method).lights_patches) options.patch_m = 1;
     return options;
 }
 

@@ -29,7 +29,7 @@ RunOptions rating_options(std::string_view method, std::uint64_t seed = 1) {
     options.method = method;
     options.paths = 2048;
     options.seed = seed;
-    options.patches.patch_m = 1;
+    options.patch_m = 1;
     return options;
 }
 
@@ -270,7 +270,7 @@ TEST(TargetMean, AimsAtMeansAndMinima) {
     RunOptions options;
     options.method = "path";
     options.error = 0.001;
-    options.target = Target::mean;
+    options.target = "mean";
     const RunResult means = measure(rated_room(), {&sensor, 1}, options);
     const statistics::GridSummary& summary = means.sensors[0].summary;
     EXPECT_EQ(means.stop_reason, StopReason::target_reached);

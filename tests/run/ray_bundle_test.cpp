@@ -43,7 +43,7 @@ RunOptions bundle_options(double patch_m, std::uint64_t steps) {
     options.method = "ray-bundle";
     options.paths = steps;
     options.replicates = 8;
-    options.patches.patch_m = patch_m;
+    options.patch_m = patch_m;
     return options;
 }
 

@@ -36,7 +36,7 @@ Sensor view() {
 RunOptions options_for(const std::string& method) {
     RunOptions options;
     options.method = method;
-    options.patches.patch_m = 0.5;
+    options.patch_m = 0.5;
     options.patches.resolution = 64;
     options.patches.shot_resolution = 32;
     if (method == "path") options.patches.first_shot.variant = estimators::FirstShotVariant::incoming;

@@ -51,7 +51,7 @@ RunOptions options_of(std::uint64_t steps, std::uint64_t seed = 1) {
     options.method = "ray-bundle";
     options.paths = steps;
     options.seed = seed;
-    options.patches.patch_m = kPatch_m;
+    options.patch_m = kPatch_m;
     return options;
 }
 

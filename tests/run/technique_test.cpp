@@ -99,7 +99,7 @@ TEST(Technique, OfOtherMethodsIsTheMethod) {
         RunOptions options;
         options.method = method;
         options.paths = 1;
-        options.patches.patch_m = 1;
+        options.patch_m = 1;
         EXPECT_EQ(measure(room_with_box(), {&sensor, 1}, options).technique, method);
     }
 }

@@ -52,13 +52,13 @@ class ImportTest(CommandLineTest):
     def test_options_of_the_run_are_kept(self):
         output = self.folder / "room"
         result = run("import", DATA / "blender_room.glb", "-o", output, "--set", "run.seed=5", "--set", "run.error=0.1",
-                     "--set", "run.target=mean", "--set", "run.time=20", "--set", "run.bounces=3")
+                     "--set", "run.target=mean", "--set", "run.time=20", "--set", "run.bounces=3", "--set", "run.patch=2")
         self.assertEqual(result.returncode, 0, result.stderr)
         options = self.info(output / "scene.toml")["run"]
         expected = self.info(DATA / "blender_room.glb", "--set", "run.seed=5", "--set", "run.error=0.1", "--set",
-                             "run.target=mean", "--set", "run.time=20", "--set", "run.bounces=3")["run"]
+                             "run.target=mean", "--set", "run.time=20", "--set", "run.bounces=3", "--set", "run.patch=2")["run"]
         self.assertEqual(options, expected)
-        self.assertEqual((options["seed"], options["bounces"]), (5, 3))
+        self.assertEqual((options["seed"], options["bounces"], options["patch_m"]), (5, 3, 2))
 
     def test_a_radiance_scene_measures_as_its_folder(self):
         room, output = DATA / "radiance/room.rad", self.folder / "room"

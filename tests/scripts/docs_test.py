@@ -134,6 +134,20 @@ class ExampleTest(unittest.TestCase):
                     file.write_text(scene + addition)
                     self.assertEqual(self.stilb("info", file, "--json")["warnings"], [])
 
+    def test_the_options_of_runs_are_those_of_the_program(self):
+        """Documented, taken from the scene file, and flags with the same names."""
+        section = (ROOT / "docs/scene-format.md").read_text().split("## `[run]`")[1]
+        documented = re.findall(r"^\| `(\w+)` \|", section.split("Without `error`")[0], re.MULTILINE)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "room.toml"
+            file.write_text("[run]\nnothing = 1\n")
+            refusal = subprocess.run([PROGRAM, "info", file], capture_output=True, text=True).stderr
+        self.assertEqual(re.findall(r"\w+", refusal.split("Allowed: ")[1]), documented)
+        text = subprocess.run([PROGRAM, "measure", "--help"], capture_output=True, text=True).stdout
+        for key in documented:
+            if key != "maintenance":
+                self.assertIn(f"  --{key} ", text)
+
     def test_the_readme_shows_the_simple_room(self):
         (scene,) = blocks(ROOT / "README.md", "toml")
         self.assertEqual(tomllib.loads(scene), tomllib.loads((ROOT / "scenes/simple/room.toml").read_text()))

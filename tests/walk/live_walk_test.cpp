@@ -33,7 +33,7 @@ RunOptions steps(std::uint64_t count) {
     RunOptions options;
     options.method = "ray-bundle";
     options.paths = count;
-    options.patches.patch_m = 1;
+    options.patch_m = 1;
     return options;
 }
 

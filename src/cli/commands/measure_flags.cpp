@@ -1,7 +1,6 @@
 #include "cli/commands/measure_flags.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -16,16 +15,6 @@ namespace {
 
 /// Seconds a reading that statistics and files take after the last sample. Two threads were measured.
 constexpr double kFinishing_s = 3e-6;
-
-run::Target target_of(const std::string& name) {
-    const auto found = std::ranges::find(run::kTargetNames, name);
-    if (found == run::kTargetNames.end()) {
-        throw InputError(fmt::format("--target {}: there is no such value.{} Allowed: {}.", name,
-                                     did_you_mean(name, run::kTargetNames),
-                                     fmt::join(run::kTargetNames, ", ")));
-    }
-    return static_cast<run::Target>(found - run::kTargetNames.begin());
-}
 
 /// The working planes that --grid describes.
 struct GridRequest {
@@ -100,11 +89,6 @@ void MeasureFlags::add_to(Command& command) {
         "--check", checks,
         "Exit with code 1 where a requirement of a sensor (require = ...) is not met, with code 3 where "
         "it is not sure, else with 0");
-    command
-        .add("--target", target,
-             "Readings (default: 95 % of each sensor's) or mean (means and minima of the sensors) have the "
-             "error of --error")
-        .value_name("NAME");
     add_overrides(command, overrides);
     run.add_to(command);
 }
@@ -117,9 +101,7 @@ RunOptions MeasureFlags::options_for(std::span<const Sensor> measured, const Run
     }
     std::size_t readings = 0;
     for (const Sensor& sensor : measured) readings += sensor.size();
-    RunOptions options = with_reserve(run.over(of_file), kFinishing_s * static_cast<double>(readings));
-    if (target) options.target = target_of(*target);
-    return options;
+    return with_reserve(run.over(of_file), kFinishing_s * static_cast<double>(readings));
 }
 
 int MeasureFlags::exit_code_of(const RunResult& result) const {

@@ -15,7 +15,7 @@ namespace stilb::cli {
 
 struct MeasureFlags {
     std::vector<std::string> overrides, sensors;
-    std::optional<std::string> target, grid;
+    std::optional<std::string> grid;
     bool checks = false;
     RunFlags run;
 

@@ -121,7 +121,7 @@ void print_summary(const RenderResult& result, const Sensor& sensor, const std::
 
 /// Refuses flags of the light computation, which a stored solution cannot follow.
 void require_no_run_flags(const RunFlags& flags) {
-    const std::vector<std::string_view> given = flags.given();
+    const std::vector<std::string> given = flags.given();
     if (given.empty()) return;
     throw InputError(
         fmt::format("{} has no effect with --from, which takes the light from the solution. Give it to "
@@ -153,7 +153,7 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
     if (stored) {
         origin.method = "solution";
         origin.seed = stored->seed;
-        const int threads = request.flags.threads.value_or(file.run.threads);
+        const int threads = request.flags.over(file.run).threads;
         RenderProgress progress(request, *sensor.camera(), origin);
         return render_solution(file.scene, sensor, std::move(stored->solution), request.factors, threads,
                                &progress, &watch_for_interrupt());
@@ -341,7 +341,7 @@ void add_render(CommandLine& line) {
     command.find("--set").description(
         "Take this value instead of the scene file's (materials.wall.reflectance=0.4); with --from also a "
         "factor for the light of a group or of a lamp (lamp=0.4, lamp=[1, 0.8, 0.5])");
-    request->flags.add_to(command);
+    request->flags.add_to(command, {"target"});
     command.run([request, &line] {
         request->command = line.text();
         return run_render(*request);

@@ -13,6 +13,7 @@
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
+#include "cli/run_flags.h"
 #include "estimators/estimator_list.h"
 #include "io/results/results_text.h"
 #include "run/options.h"
@@ -25,10 +26,7 @@ namespace {
 
 struct VerifyRequest {
     std::vector<std::string> cases, methods;
-    std::string error = "1%";
-    std::optional<double> time_s;
-    std::uint64_t seed = 1;
-    int threads = 0;
+    RunOptions options;
     bool all = false, json = false, cie171 = false;
 };
 
@@ -124,19 +122,6 @@ std::vector<estimators::EstimatorEntry> chosen_methods(const std::vector<std::st
     std::vector<estimators::EstimatorEntry> methods;
     for (const std::string& name : names) methods.push_back(estimators::find_estimator(name));
     return methods;
-}
-
-RunOptions run_options(const VerifyRequest& request) {
-    RunOptions options;
-    options.error = run::parse_relative_error(request.error);
-    if (!options.error) {
-        throw InputError(
-            fmt::format("--error {}: expected a share between 0 and 1, such as 0.01 or 1%", request.error));
-    }
-    options.time_s = request.time_s;
-    options.seed = request.seed;
-    options.threads = request.threads;
-    return options;
 }
 
 /// Contradictions and missed targets among the results; empty where there are none.
@@ -263,7 +248,7 @@ int run_cie171(const VerifyRequest& request, RunOptions options) {
 }
 
 int run_verify(const VerifyRequest& request) {
-    const RunOptions options = run_options(request);
+    const RunOptions& options = request.options;
     if (request.cie171) return run_cie171(request, options);
     const std::vector<estimators::EstimatorEntry> methods = chosen_methods(request.methods);
     const std::vector<verification::VerificationCase> cases = chosen_cases(request.cases, methods);
@@ -294,16 +279,14 @@ void add_verify(CommandLine& line) {
     command.add("--method", request->methods, "Check only this method (may be repeated)")
         .value_name("NAME")
         .repeatable();
-    command
-        .add("--error", request->error,
-             "Largest half-width of the 95 % interval of a reading, as a share of its value: 1% or 0.01")
-        .value_name("SHARE")
-        .show_default();
-    command.add("--time", request->time_s, "Time limit for each case and method, in seconds").value_name("S");
-    command
-        .add("--seed", request->seed, "Seed of the random numbers: another seed gives an independent result")
-        .value_name("N");
-    command.add("--threads", request->threads, "Processor threads (default: all)").value_name("N");
+    request->options.error = 0.01;
+    add_option(command, request->options, "error")
+        .description(
+            "Largest half-width of the 95 % interval of a reading, as a share of its value (default: 1%)");
+    add_option(command, request->options, "time")
+        .description("Time limit for each case and method, in seconds");
+    add_option(command, request->options, "seed");
+    add_option(command, request->options, "threads");
     command.add("--cie171", request->cie171,
                 "The test cases of CIE 171 instead, by one method (default: auto)");
     command.add("--all", request->all, "Show all readings, not only the worst of each row");

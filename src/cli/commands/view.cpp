@@ -67,7 +67,7 @@ std::string scene_of(const io::StoredSolution& stored, const std::string& soluti
 
 /// Refuses flags that a solution, which has its light, cannot follow.
 void require_no_solving(const ViewRequest& request) {
-    std::vector<std::string_view> given = request.flags.given();
+    std::vector<std::string> given = request.flags.given();
     if (request.degree) given.emplace_back("--degree");
     if (given.empty()) return;
     throw InputError(

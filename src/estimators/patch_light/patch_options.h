@@ -46,9 +46,8 @@ constexpr std::string_view name_of(BundleDirections directions) {
     return kBundleDirectionsNames[static_cast<std::size_t>(directions)];
 }
 
-struct PatchOptions {
-    /// Longest edge; absent: by the scene, for about 10,000 patches.
-    std::optional<double> patch_m;
+/// The options of methods on patches, without the size of the patches.
+struct PatchMethodOptions {
     FirstShotOptions first_shot;
     /// Resolution of first shot's item buffers; absent: by the number of patches.
     std::optional<int> resolution;
@@ -56,6 +55,11 @@ struct PatchOptions {
     /// Resolution of the item buffers around patches in method radiosity, whose window and backend are first
     /// shot's.
     int shot_resolution = 64;
+};
+
+struct PatchOptions : PatchMethodOptions {
+    /// Longest edge; absent: by the scene, for about 10,000 patches.
+    std::optional<double> patch_m;
 };
 
 // Patches and first shot in the results: plain values.

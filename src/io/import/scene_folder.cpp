@@ -38,23 +38,11 @@ std::string heading(const SceneFile& file) {
 
 /// The options that differ from those of a run without any.
 TomlMembers run_table(const RunOptions& run) {
-    const RunOptions usual;
     TomlMembers members;
-    const auto add = [&](std::string key, TomlValue value) {
-        members.push_back({std::move(key), 0, std::move(value)});
-    };
-    const auto add_count = [&](std::string key, auto count) {
-        add(std::move(key), {static_cast<std::int64_t>(count)});
-    };
-    if (run.method != usual.method) add("method", toml_text(run.method));
-    if (run.error) add("error", toml_number(*run.error));
-    if (run.target != usual.target)
-        add("target", toml_text(std::string(run::kTargetNames[static_cast<std::size_t>(run.target)])));
-    if (run.time_s) add("time", toml_number(*run.time_s));
-    if (run.paths) add_count("paths", *run.paths);
-    if (run.bounces) add_count("bounces", *run.bounces);
-    if (run.seed != usual.seed) add_count("seed", run.seed);
-    if (run.threads != usual.threads) add_count("threads", run.threads);
+    run::for_each_value(run, [&](const auto& option, const auto& value) {
+        if (run.*option.member != RunOptions{}.*option.member)
+            members.push_back({std::string(option.key), 0, toml_value(value)});
+    });
     return members;
 }
 

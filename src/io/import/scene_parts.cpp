@@ -17,22 +17,13 @@
 namespace stilb::io {
 namespace {
 
-TomlValue parameter_value(double number) { return toml_number(number); }
-TomlValue parameter_value(const Rgb& rgb) { return toml_rgb(rgb); }
-template <std::size_t N>
-TomlValue parameter_value(const std::array<double, N>& numbers) {
-    TomlArray array;
-    for (const double number : numbers) array.push_back(toml_number(number));
-    return {std::move(array)};
-}
-
 struct MaterialTable {
     template <typename Model>
     TomlMembers operator()(const Model& model) const {
         TomlMembers members{{"type", 0, toml_text(std::string(Model::kType))}};
         const auto& parameters = materials::parameters_of(model);
         for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
-            members.push_back({std::string(field.key), 0, parameter_value(parameters.*field.member)});
+            members.push_back({std::string(field.key), 0, toml_value(parameters.*field.member)});
         });
         return members;
     }

@@ -1,8 +1,8 @@
 // Sensors as tables of a scene file.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <type_traits>
+#include <array>
+#include <concepts>
 #include <utility>
 
 #include "io/import/scene_parts.h"
@@ -12,12 +12,6 @@
 
 namespace stilb::io {
 namespace {
-
-TomlValue vectors_value(const std::vector<Vec3>& vectors) {
-    TomlArray array;
-    for (const Vec3& vector : vectors) array.push_back(toml_vector(vector));
-    return {std::move(array)};
-}
 
 /// Writes the keys of a sensor, one kind of key after another.
 template <typename Kind>
@@ -29,20 +23,12 @@ struct SensorTable {
         members.push_back({std::string(key), 0, std::move(value)});
     }
 
-    bool write(const Field<Kind, double>& field) const {
-        push(field.key, toml_number(kind.*field.member));
-        return true;
-    }
-    bool write(const sensors::PositionField<Kind>& field) const {
-        push(field.key, toml_vector(kind.*field.member));
-        return true;
-    }
-    bool write(const sensors::TargetField<Kind>& field) const {
-        push(field.key, toml_vector(kind.*field.member));
-        return true;
-    }
-    bool write(const sensors::DirectionField<Kind, Vec3>& field) const {
-        push(field.key, toml_vector(kind.*field.member));
+    /// A number, a vector or two counts.
+    template <typename Plain>
+    bool write(const Plain& field) const requires std::same_as<decltype(Plain::member), double Kind::*> ||
+        std::same_as<decltype(Plain::member), Vec3 Kind::*> ||
+        std::same_as<decltype(Plain::member), std::array<int, 2> Kind::*> {
+        push(field.key, toml_value(kind.*field.member));
         return true;
     }
     bool write(const sensors::DirectionField<Kind, std::optional<Vec3>>& field) const {
@@ -50,7 +36,7 @@ struct SensorTable {
         return true;
     }
     bool write(const sensors::PositionsField<Kind>& field) const {
-        push("positions", vectors_value(kind.*field.member));
+        push("positions", toml_value(kind.*field.member));
         return true;
     }
     bool write(const sensors::MeasuringPointsField<Kind>& field) const {
@@ -60,7 +46,7 @@ struct SensorTable {
             if (!(point.normal == points.front().normal)) return false;
             positions.push_back(point.position);
         }
-        push("positions", vectors_value(positions));
+        push("positions", toml_value(positions));
         push("normal", toml_vector(points.front().normal));
         return true;
     }
@@ -68,11 +54,6 @@ struct SensorTable {
         push("corner", toml_vector(kind.*field.corner));
         push("edge_u", toml_vector(kind.*field.edge_u));
         push("edge_v", toml_vector(kind.*field.edge_v));
-        return true;
-    }
-    bool write(const sensors::CountsField<Kind>& field) const {
-        const auto [first, second] = kind.*field.member;
-        push(field.key, {TomlArray{{std::int64_t{first}}, {std::int64_t{second}}}});
         return true;
     }
     template <typename Enumeration>

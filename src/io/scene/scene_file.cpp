@@ -9,7 +9,6 @@
 #include <limits>
 #include <utility>
 
-#include "estimators/estimator_list.h"
 #include "io/scene/fields.h"
 #include "io/scene/overrides.h"
 #include "io/scene/sections.h"
@@ -26,25 +25,25 @@ namespace stilb::io {
 
 namespace {
 
-constexpr Range kRelativeError{1e-9, 0.999999, "a share between 0 and 1, such as 0.01 or \"1%\""};
-constexpr Range kSeconds{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"};
 constexpr Range kMaintenance{1e-3, 1, "a factor above 0 (from 0.001 to 1)"};
-constexpr std::int64_t kMostPaths = std::int64_t{1} << 53;
+// The value of an option of [run], by its limits.
 
-std::string read_method(const TomlItem& item) {
-    std::vector<std::string_view> methods;
-    for (const estimators::EstimatorEntry& entry : estimators::estimator_list())
-        methods.push_back(entry.name);
-    return std::string(methods[item.index_in(methods, "method")]);
+double read_option(const TomlItem& item, std::string_view, const Range& limits) {
+    return item.number(limits);
 }
-
-double read_error(const TomlItem& item) {
-    if (!item.is_text()) return item.number(kRelativeError);
-    const auto error = run::parse_relative_error(item.text());
-    if (!error)
+double read_option(const TomlItem& item, std::string_view, const api::Share& limits) {
+    const auto share = item.is_text() ? run::parse_relative_error(item.text()) : item.number(limits.range);
+    if (!share) {
         item.fail(
-            fmt::format("{} is not allowed. Allowed: {}.", in_quotes(item.text()), kRelativeError.allowed));
-    return *error;
+            fmt::format("{} is not allowed. Allowed: {}.", in_quotes(item.text()), limits.range.allowed));
+    }
+    return *share;
+}
+std::int64_t read_option(const TomlItem& item, std::string_view, const api::WholeRange& limits) {
+    return item.integer(limits.min, limits.max);
+}
+std::string read_option(const TomlItem& item, std::string_view key, const api::Names& limits) {
+    return std::string(limits.all()[item.index_in(limits.all(), key)]);
 }
 
 /// The section as a table; an absent one is an empty table.
@@ -132,22 +131,15 @@ Rectangle read_rectangle(const TomlTable& table) {
 }
 
 RunOptions read_run(TomlTable section) {
-    section.expect_keys(
-        {"method", "error", "target", "time", "paths", "bounces", "seed", "threads", "maintenance"});
+    std::vector<std::string_view> keys = keys_of<api::Options>();
+    keys.emplace_back("maintenance");
+    section.expect_keys(keys);
     RunOptions run;
-    if (const auto item = section.find("method")) run.method = read_method(*item);
-    if (const auto item = section.find("error")) run.error = read_error(*item);
-    if (const auto item = section.find("target"))
-        run.target = static_cast<run::Target>(item->index_in(run::kTargetNames, "target"));
-    if (const auto item = section.find("time")) run.time_s = item->number(kSeconds);
-    if (const auto item = section.find("paths"))
-        run.paths = static_cast<std::uint64_t>(item->integer(1, kMostPaths));
-    if (const auto item = section.find("bounces"))
-        run.bounces = static_cast<int>(item->integer(0, 1'000'000));
-    if (const auto item = section.find("seed")) {
-        run.seed = static_cast<std::uint64_t>(item->integer(0, std::numeric_limits<std::int64_t>::max()));
-    }
-    if (const auto item = section.find("threads")) run.threads = static_cast<int>(item->integer(0, 4096));
+    for_each_field<api::Options>([&](const auto& option) {
+        using Value = typename std::decay_t<decltype(option)>::Plain;
+        if (const auto item = section.find(option.key))
+            run.*option.member = static_cast<Value>(read_option(*item, option.key, option.limits));
+    });
     return run;
 }
 

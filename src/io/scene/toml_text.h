@@ -1,7 +1,10 @@
 // TOML as text.
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <type_traits>
+#include <utility>
 
 #include "io/scene/toml.h"
 
@@ -19,5 +22,24 @@ TomlValue toml_vector(const Vec3& vector);
 /// One number where the bands are equal, else [r, g, b].
 TomlValue toml_rgb(const Rgb& rgb);
 TomlValue toml_text(std::string text);
+/// The value of a field.
+template <typename Value>
+TomlValue toml_value(const Value& value) {
+    if constexpr (std::is_integral_v<Value>) {
+        return {static_cast<std::int64_t>(value)};
+    } else if constexpr (std::is_same_v<Value, double>) {
+        return toml_number(value);
+    } else if constexpr (std::is_same_v<Value, Rgb>) {
+        return toml_rgb(value);
+    } else if constexpr (std::is_same_v<Value, Vec3>) {
+        return toml_vector(value);
+    } else if constexpr (std::is_same_v<Value, std::string>) {
+        return toml_text(value);
+    } else {
+        TomlArray array;
+        for (const auto& element : value) array.push_back(toml_value(element));
+        return {std::move(array)};
+    }
+}
 
 }  // namespace stilb::io

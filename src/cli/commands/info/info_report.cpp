@@ -172,15 +172,12 @@ Json sensor_json(const Sensor& sensor) {
 }
 
 Json run_json(const RunOptions& run) {
-    Json json{{"method", run.method}};
-    if (run.error) json["error"] = *run.error;
-    if (run.target != run::Target::readings)
-        json["target"] = run::kTargetNames[static_cast<std::size_t>(run.target)];
-    if (run.time_s) json["time_s"] = *run.time_s;
-    if (run.paths) json["paths"] = *run.paths;
-    if (run.bounces) json["bounces"] = *run.bounces;
-    json["seed"] = run.seed;
-    if (run.threads > 0) json["threads"] = run.threads;
+    Json json;
+    run::for_each_value(run, [&](const auto& option, const auto& value) {
+        const bool is_always_shown = option.key == "method" || option.key == "seed";
+        if (!is_always_shown && run.*option.member == RunOptions{}.*option.member) return;
+        json[fmt::format("{}{}{}", option.key, option.unit.empty() ? "" : "_", option.unit)] = value;
+    });
     return json;
 }
 
