@@ -62,7 +62,7 @@ class PictureState : public testing::TestWithParam<const char*> {
     PictureState() {
         options_.method = GetParam();
         options_.paths = 20;
-        if (options_.method == "ray-bundle") options_.patches.patch_m = 1;
+        if (options_.method == "ray-bundle") options_.patch_m = 1;
     }
     Scene scene_ = room_with_box();
     Sensor camera_ = camera_of({40, 24});

@@ -56,7 +56,7 @@ TEST(PreparedScene, ServesMeasurementsAfterSolutions) {
     const PreparedScene prepared(scene);
     RunOptions options;
     options.paths = 16;
-    options.patches.patch_m = 1;
+    options.patch_m = 1;
     solve(prepared, options);
     const Sensor sensor = sensor_at({1, 1, 0.8});
     expect_same(measured(prepared, sensor), measured(scene, sensor));
