@@ -86,7 +86,7 @@ class ChannelsOf : public testing::TestWithParam<const char*> {
     rays::RayCaster caster_{scene_};
     std::vector<Measurand> readings_ = readings();
     /// A sample of guided light is 32 paths of its residual.
-    std::uint64_t samples_ = method_.name == "guided" ? 1 << 7 : 1 << 12;
+    std::uint64_t samples_ = method_.name == "guided" ? 1 << 5 : method_.name == "path" ? 1 << 10 : 1 << 12;
     Channels channels_{{{"first", "second"}, kGroups}, kOrders};
 };
 
@@ -111,8 +111,8 @@ TEST_P(ChannelsOf, ChangeNoReading) {
     if (method_.name == "guided") return;
     const auto with = method_.make(problem_of(scene_, caster_, readings_, transport::kUnlimited, &channels_)),
                without = method_.make(problem_of(scene_, caster_, readings_));
-    const Sampled a = sampled(*with, readings_.size(), channels_.count(), 1 << 11, 3),
-                  b = sampled(*without, readings_.size(), 0, 1 << 11, 3);
+    const Sampled a = sampled(*with, readings_.size(), channels_.count(), 1 << 10, 3),
+                  b = sampled(*without, readings_.size(), 0, 1 << 10, 3);
     for (std::size_t r = 0; r < kReplicates; ++r) {
         for (std::size_t j = 0; j < readings_.size(); ++j)
             EXPECT_NEAR(a.whole[r][j].luminance(), b.whole[r][j].luminance(),
@@ -198,7 +198,7 @@ std::vector<std::vector<double>> picture_means(const Estimator& method, std::siz
 TEST_P(ChannelsOf, OfPicturesAddUpAndAreTheLightOfTheirGroups) {
     Problem problem = problem_of(scene_, caster_, {}, transport::kUnlimited, &channels_);
     problem.camera = camera();
-    constexpr std::uint64_t passes = 64;
+    constexpr std::uint64_t passes = 32;
     const auto all = picture_means(*method_.make(problem), channels_.count(), passes, math::RandomKey{5});
     for (std::size_t group = 0; group < 2; ++group) {
         Scene alone = scene_;
