@@ -96,7 +96,7 @@ struct TexturedScene {
 };
 
 Rgb mean_of_texels(const TextureMap& map) {
-    const std::array<double, 4> mean = mean_of(map, {}, true);
+    const std::array<double, 4> mean = mean_of(map, {}, Texels::colours);
     return {{mean[0], mean[1], mean[2]}};
 }
 
