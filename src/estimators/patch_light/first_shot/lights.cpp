@@ -125,7 +125,8 @@ class Chooser {
         } else if constexpr (requires { source.luminaire; }) {
             return shoot_from_opening(source);
         } else if constexpr (Source::kLocation == LightLocation::surface) {
-            static_assert(requires { source.luminance_cd_m2; }, "patches emit evenly: add samples of the kind");
+            static_assert(
+                requires { source.luminance_cd_m2; }, "patches emit evenly: add samples of the kind");
             return shoot_from_surface(*uniform_emission(light));
         } else {
             static_assert(Source::kLocation == LightLocation::infinity);
