@@ -169,8 +169,7 @@ EyePicture picture_at(const MeasuringPoint& eye, const PictureSetting& setting) 
     picture.luminances_cd_m2.resize(pixels);
     for (std::size_t i = 0; i < pixels; ++i) {
         for (std::size_t r = 0; r < kGlareReplicates; ++r)
-            picture.luminances_cd_m2[i][r] =
-                static_cast<float>(sums.luminance_of_replicate_cd_m2(r, i));
+            picture.luminances_cd_m2[i][r] = static_cast<float>(sums.luminance_of_replicate_cd_m2(r, i));
     }
     return picture;
 }

@@ -168,14 +168,17 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
     const Eye eye(at, caster, lights);
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         switch (location_of(scene.lights[i])) {
-            case LightLocation::point: add_point(eye, i, glare); break;
+            case LightLocation::point:
+                add_point(eye, i, glare);
+                break;
             case LightLocation::surface: {
                 const ObjectId object = *lights::emitting_object(scene.lights[i]);
                 const lights::EmitterSurface surface(scene.object(object).shape, caster.lift());
                 add_lamp(eye, i, surface, key.derived(i), glare);
                 break;
             }
-            case LightLocation::infinity: break;  // background
+            case LightLocation::infinity:
+                break;  // background
         }
     }
     return glare;
