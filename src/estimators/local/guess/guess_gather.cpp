@@ -112,10 +112,9 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
             light.cosine[i] > 0
                 ? cosine[i] * light.cosine[i] / (packet.ray.end[i] * packet.ray.end[i]) * tile.inverse_k[i]
                 : 0;
-        const transport::LightSum gathered = gathered_cd_m2(light, i, g_over_k, shares);
-        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += static_cast<float>(gathered.whole[b]);
-        add_shares(gathered, sums.shares[i]);
-        double largest = std::abs(gathered.whole.luminance());
+        const Rgb gathered = gathered_cd_m2(light, i, g_over_k, shares, sums);
+        for (std::size_t b = 0; b < kBands; ++b) sums.guessed[b][i] += static_cast<float>(gathered[b]);
+        double largest = std::abs(gathered.luminance());
         const Continuation continuation = continuation_of(light, i, double{g_over_k});
         if (fraction(u[2] + double{lanes.roulette[i]}) < continuation.probability) {
             const Vec3 direction = normalized(
@@ -131,22 +130,21 @@ void GuessGather::add_round(const PointTile& tile, const GatherLanes& lanes, con
     }
 }
 
-transport::LightSum GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
-                                                const Shares& shares) const {
+Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
+                                const Shares& shares, Sums& sums) const {
+    std::vector<Rgb>& of_lane = sums.shares[lane];
+    if (guess_.channels()) of_lane.resize(guess_.channels()->count());
     const std::uint32_t side = light.sides[lane];
-    transport::LightSum luminance = guess_.seen(light, lane);
+    const Rgb luminance = light.luminance_of(lane);
     if (side == patches::kNoSide) return luminance;
-    switch (shares.sights.empty() ? Sight::uncertain : shares.sights[side]) {
-        case Sight::uncertain:
-            luminance *= Rgb::grey(double{1 - 1 / (1 + shares.split * g_over_k)});
-            break;
-        case Sight::certain:
-            luminance.add(guess_.mean(side), Rgb::grey(-1));
-            break;
-        case Sight::none:
-            break;
-    }
-    return luminance;
+    const Sight sight = shares.sights.empty() ? Sight::uncertain : shares.sights[side];
+    const double by_rays = sight == Sight::uncertain ? double{1 - 1 / (1 + shares.split * g_over_k)} : 1;
+    guess_.add_shares(light, lane, by_rays, of_lane);
+    if (sight != Sight::certain) return luminance * by_rays;
+    transport::LightSum mean = guess_.mean(side);
+    mean *= Rgb::grey(-1);
+    add_shares(mean, of_lane);
+    return luminance + mean.whole;
 }
 
 void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings) const {

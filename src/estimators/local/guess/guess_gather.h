@@ -84,9 +84,10 @@ class GuessGather {
   private:
     void set_rays(const PointTile& tile, const GatherLanes& lanes, const GatherPoint& u, RayPacket& packet,
                   PointTile::Floats& cosine) const;
-    /// The guessed light that the ray of a lane brings [cd/m2]. `g_over_k`: with the k of the residual.
-    transport::LightSum gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k,
-                                       const Shares& shares) const;
+    /// The guessed light that the ray of a lane brings [cd/m2]; adds its shares to the sums. `g_over_k`: with
+    /// the k of the residual.
+    Rgb gathered_cd_m2(const GuessedLight& light, std::size_t lane, float g_over_k, const Shares& shares,
+                       Sums& sums) const;
     /// How a ray is continued beyond the guess.
     struct Continuation {
         PartShares shares;

@@ -285,17 +285,27 @@ Rgb LightGuess::interpolated(const CornerLuminances& corners, const math::Baryce
 transport::LightSum LightGuess::at(std::uint32_t side, const math::Barycentric& at) const {
     transport::LightSum sum(channels_);
     sum.whole = interpolated(corners_[side], at);
-    for (std::size_t c = 0; c < sum.shares.size(); ++c)
-        sum.shares[c] = interpolated(corners_of_shares_[side * sum.shares.size() + c], at);
+    add_shares(side, at, 1, sum.shares);
     return sum;
 }
 
 transport::LightSum LightGuess::seen(const GuessedLight& light, std::size_t lane) const {
     transport::LightSum sum(channels_);
-    const std::uint32_t side = light.sides[lane];
-    if (channels_ && side != patches::kNoSide) sum = at(side, light.barycentric_of(lane));
     sum.whole = light.luminance_of(lane);
+    add_shares(light, lane, 1, sum.shares);
     return sum;
+}
+
+void LightGuess::add_shares(const GuessedLight& light, std::size_t lane, double weight,
+                            std::vector<Rgb>& shares) const {
+    if (!shares.empty() && light.sides[lane] != patches::kNoSide)
+        add_shares(light.sides[lane], light.barycentric_of(lane), weight, shares);
+}
+
+void LightGuess::add_shares(std::uint32_t side, const math::Barycentric& at, double weight,
+                            std::vector<Rgb>& shares) const {
+    for (std::size_t c = 0; c < shares.size(); ++c)
+        shares[c] += interpolated(corners_of_shares_[side * shares.size() + c], at) * weight;
 }
 
 void LightGuess::go_to_owners(patches::PatchHits& hits) const {

@@ -84,6 +84,9 @@ class LightGuess {
     transport::LightSum at(std::uint32_t side, const math::Barycentric& at) const;
     transport::LightSum mean(std::uint32_t side) const { return at(side, {1. / 3, 1. / 3, 1. / 3}); }
     transport::LightSum seen(const GuessedLight& light, std::size_t lane) const;
+    /// Adds the shares of that, times a weight, without another list. `shares`: by channel, or empty.
+    void add_shares(const GuessedLight& light, std::size_t lane, double weight,
+                    std::vector<Rgb>& shares) const;
     double lit_area_m2() const { return lit_area_m2_; }
     /// The guess along rays, for lanes that are set; the packet as RayCaster::closest() takes and leaves it.
     void look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::Coherence coherence,
@@ -99,6 +102,8 @@ class LightGuess {
         return is_traced_object_[index_of(object)] != 0 || is_traced_material_[index_of(material)] != 0;
     }
     void interpolate(const std::vector<transport::LightSum>& luminance_of_sides);
+    void add_shares(std::uint32_t side, const math::Barycentric& at, double weight,
+                    std::vector<Rgb>& shares) const;
     static Rgb interpolated(const CornerLuminances& corners, const math::Barycentric& at);
     /// Takes hits of shared places to the owners.
     void go_to_owners(patches::PatchHits& hits) const;

@@ -48,14 +48,18 @@ class ChosenArrival {
     /// `u`: in [0, 1).
     ChosenArrival(double u, const transport::Channels* channels) : u_(u), light_(channels) {}
 
-    void add(const Vec3& direction, const transport::LightSum& arriving) {
-        const double light = arriving.whole.luminance();
+    /// `set(sum)`: adds the shares of the arriving light to an empty sum.
+    template <typename Set>
+    void add(const Vec3& direction, const Rgb& arriving, const Set& set) {
+        const double light = arriving.luminance();
         if (!(light > 0)) return;
         sum_ += light;
         const double probability = light / sum_;
         if (u_ < probability) {
             direction_ = direction;
-            light_ = arriving;
+            light_ *= Rgb{};
+            set(light_);
+            light_.whole = arriving;
             light_ *= Rgb::grey(1 / light);
             u_ /= probability;
         } else {
@@ -151,16 +155,13 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
                 {},
                 transport::LightSum(channels)};
     const Frame frame = Frame::around(start.point.normal);
-    ChosenArrival chosen(stream.next(), channels);
+    // Without gloss nothing asks for the light of one direction.
+    ChosenArrival chosen(stream.next(), guess_.material(side).gloss ? channels : nullptr);
     transport::LightSum& missing_lx = start.missing_lx;
-    const auto add = [&](const Vec3& direction, const transport::LightSum& illuminance_lx) {
-        missing_lx.add(illuminance_lx, Rgb::grey(1));
-        chosen.add(direction, illuminance_lx);
-    };
     direct_.sample(start.point, part, kResidualDirect, stream, [&](const Arrival& arrival) {
-        transport::LightSum illuminance_lx(channels);
-        illuminance_lx.add(arrival.illuminance_lx, arrival.light);
-        add(arrival.direction, illuminance_lx);
+        missing_lx.add(arrival.illuminance_lx, arrival.light);
+        chosen.add(arrival.direction, arrival.illuminance_lx,
+                   [&](transport::LightSum& sum) { sum.add(arrival.illuminance_lx, arrival.light); });
     });
     const std::array<double, 2> shift = stream.next_two();
     const auto rays = static_cast<std::uint32_t>(packets * kPacketWidth);
@@ -179,16 +180,23 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
         }
         guess_.look(packet, lanes, rays::Coherence::scattered, light);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
-            transport::LightSum illuminance_lx(channels);
-            if ((light.traced_lanes >> i & 1u) == 0) {
-                illuminance_lx = guess_.seen(light, i);
-            } else if (const auto hit = caster_.closest(start.point.lifted, directions[i])) {
-                illuminance_lx.add_sample(Rgb::grey(1), [&](auto* parts) {
-                    return tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited,
-                                                            stream, parts);
-                });
+            if ((light.traced_lanes >> i & 1u) != 0) {
+                transport::LightSum traced_lx(channels);
+                if (const auto hit = caster_.closest(start.point.lifted, directions[i]))
+                    traced_lx.add_sample(Rgb::grey(per_ray), [&](auto* parts) {
+                        return tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited,
+                                                                stream, parts);
+                    });
+                missing_lx.add(traced_lx, Rgb::grey(1));
+                chosen.add(directions[i], traced_lx.whole,
+                           [&](transport::LightSum& sum) { sum.add(traced_lx, Rgb::grey(1)); });
+                continue;
             }
-            add(directions[i], illuminance_lx *= Rgb::grey(per_ray));
+            const Rgb illuminance_lx = light.luminance_of(i) * per_ray;
+            missing_lx.whole += illuminance_lx;
+            guess_.add_shares(light, i, per_ray, missing_lx.shares);
+            chosen.add(directions[i], illuminance_lx,
+                       [&](transport::LightSum& sum) { guess_.add_shares(light, i, per_ray, sum.shares); });
         }
     }
     missing_lx.reflect();
