@@ -1,4 +1,4 @@
-// What it costs to keep groups of lights apart, one thread: the time of a batch with 1 and with 20 channels
+// The cost of keeping groups of lights apart, one thread: the time of a batch with 1 and with 20 channels
 // over that without, for grids of readings and for pictures.
 #include <fmt/format.h>
 #include <tbb/global_control.h>

@@ -20,7 +20,7 @@
 
 namespace stilb::checks {
 
-/// What the checks find without rays: whatever is measured.
+/// The findings that need no rays. They are the same for all sensors.
 struct SceneFindings {
     explicit SceneFindings(const Scene& scene);
 

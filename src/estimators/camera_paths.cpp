@@ -65,13 +65,14 @@ void start_packet(const PictureTracing& tracing, std::span<const Pixel> pixels, 
 
 }  // namespace
 
-PictureTracing::PictureTracing(const Problem& problem, const transport::LightSampler& all_lights)
+PictureTracing::PictureTracing(const Problem& problem, const transport::LightSampler& all_lights,
+                               const transport::Channels* own_channels)
     : scene(problem.scene),
       caster(problem.caster),
       camera(problem.camera.value()),
       view(camera),
       max_reflections(problem.max_reflections),
-      channels(problem.channels),
+      channels(own_channels),
       lights(all_lights),
       tracer(scene, caster, lights) {}
 

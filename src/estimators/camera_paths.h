@@ -23,18 +23,20 @@ struct CameraPaths {
         Rgb luminance_cd_m2;
     };
     std::vector<Outside> outside;
-    /// What the paths and the light from outside consist of, by requested pixels; empty without channels.
+    /// The parts of the luminance of each requested pixel; empty without channels.
     std::vector<transport::LightParts> parts;
 
     /// Adds the luminances of the paths and the light from outside; readings are the requested pixels.
-    /// `channels`: as PictureTracing's.
-    void add_to(Tally& sums, const transport::Channels* channels) const;
+    /// `channels`: those of the parts.
+    void add_to(Tally& sums, const transport::Channels* channels = nullptr) const;
 };
 
 /// Keeps references to the scene, its ray caster and the lights. Immutable.
 struct PictureTracing {
-    /// For the problem's camera. `lights`: all lights that illuminate the first hits.
-    PictureTracing(const Problem& problem, const transport::LightSampler& lights);
+    /// For the problem's camera. `lights`: all lights that illuminate the first hits. `own_channels`: null
+    /// for methods that do not divide their light.
+    PictureTracing(const Problem& problem, const transport::LightSampler& lights,
+                   const transport::Channels* own_channels = nullptr);
 
     /// One path for each pixel with a first hit, along a ray drawn by the camera's filter.
     CameraPaths start_paths(std::span<const Pixel> pixels, const Pass& pass) const;

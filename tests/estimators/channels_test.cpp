@@ -3,6 +3,8 @@
 
 #include <cmath>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include "base/parallel.h"
@@ -38,6 +40,14 @@ Scene furnished_room() {
 /// By light: of two groups.
 const std::vector<std::uint32_t> kGroups{0, 1, 0, 1, 1};
 constexpr std::size_t kOrders = 4;
+
+Scene with_lights_of(Scene scene, std::size_t group) {
+    const std::vector<Light> all = std::exchange(scene.lights, {});
+    for (std::size_t i = 0; i < kGroups.size(); ++i) {
+        if (kGroups[i] == group) scene.lights.push_back(all[i]);
+    }
+    return scene;
+}
 
 std::vector<Measurand> readings() {
     return {MeasuringPoint{{1, 1, 0}, {0, 0, 1}},
@@ -127,11 +137,7 @@ TEST_P(ChannelsOf, AreTheLightOfTheirGroupsAndReflections) {
     const std::size_t count = readings_.size();
     const Sampled all = sampled(*method, count, channels_.count(), samples_, 5);
     for (std::size_t group = 0; group < 2; ++group) {
-        Scene alone = scene_;
-        alone.lights.clear();
-        for (std::size_t i = 0; i < kGroups.size(); ++i) {
-            if (kGroups[i] == group) alone.lights.push_back(scene_.lights[i]);
-        }
+        const Scene alone = with_lights_of(scene_, group);
         const rays::RayCaster caster(alone);
         for (std::size_t order = 0; order < kOrders; ++order) {
             const int most = order + 1 < kOrders ? static_cast<int>(order) : transport::kUnlimited;
@@ -201,11 +207,7 @@ TEST_P(ChannelsOf, OfPicturesAddUpAndAreTheLightOfTheirGroups) {
     constexpr std::uint64_t passes = 32;
     const auto all = picture_means(*method_.make(problem), channels_.count(), passes, math::RandomKey{5});
     for (std::size_t group = 0; group < 2; ++group) {
-        Scene alone = scene_;
-        alone.lights.clear();
-        for (std::size_t i = 0; i < kGroups.size(); ++i) {
-            if (kGroups[i] == group) alone.lights.push_back(scene_.lights[i]);
-        }
+        const Scene alone = with_lights_of(scene_, group);
         const rays::RayCaster caster(alone);
         Problem of_group = problem_of(alone, caster, {});
         of_group.camera = camera();
@@ -263,8 +265,20 @@ TEST(Channels, AreNoneWherePatchesStoreTheLight) {
     const Channels channels{{{"first", "second"}, kGroups}, kOrders};
     const std::vector<Measurand> measurands = readings();
     Problem problem = problem_of(scene, caster, measurands, transport::kUnlimited, &channels);
+    problem.camera = camera();
+    problem.patches.patch_m = 1;
+    const auto expect_none = [&](std::string_view name) {
+        const auto method = find_estimator(name).make(problem);
+        EXPECT_TRUE(method->known_parts().empty()) << name;
+        const PixelBlock block{0, 0, 4, 4};
+        Tally sums(block.pixels(), 0, channels.count());
+        method->start({math::RandomKey{5}, 0, 0})->sample(block, sums);
+        EXPECT_GT(sums.sum[5].luminance(), 0) << name;
+        for (const Rgb& part : sums.parts) EXPECT_EQ(part, Rgb{}) << name;
+    };
+    expect_none("ray-bundle");
     problem.patches.first_shot.variant = FirstShotVariant::classical;
-    EXPECT_TRUE(find_estimator("path").make(problem)->known_parts().empty());
+    expect_none("path");
 }
 
 }  // namespace

@@ -56,7 +56,7 @@ math::RandomKey SubPointPacket::key(const Pass& pass, PassStream purpose) const 
 
 SubPoints::SubPoints(const LocalTransport& transport, const Problem& problem, std::uint64_t direct_samples)
     : transport_(transport),
-      tracing_(problem, transport.lights),
+      tracing_(problem, transport.lights, problem.channels),
       direct_samples_(direct_samples),
       cell_edge_(cell_edge_of(tracing_.camera.resolution)),
       cells_(blocks_of(tracing_.camera.resolution, {cell_edge_, cell_edge_}, cell_edge_)) {}

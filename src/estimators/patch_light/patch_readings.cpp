@@ -257,7 +257,7 @@ void PatchPass::sample(const PixelBlock& block, Tally& sums) const {
         transport::Path& path = paths[standing[i]];
         if (locations[i]) path.luminance_cd_m2 += path.throughput * reflected(path, *locations[i]);
     }
-    started.add_to(sums, nullptr);
+    started.add_to(sums);
 }
 
 Rgb PatchPass::reflected(const transport::Path& path, const PatchLocation& seen) const {

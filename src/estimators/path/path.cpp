@@ -127,9 +127,7 @@ class PathEstimator final : public Estimator {
         for (std::uint32_t reading = 0; reading < problem.measurands.size(); ++reading) {
             add_reading(reading, problem.measurands[reading]);
         }
-        if (!problem.camera) return;
-        tracing_.emplace(problem, paths_.lights);
-        tracing_->channels = channels_;
+        if (problem.camera) tracing_.emplace(problem, paths_.lights, channels_);
     }
 
     std::string_view technique() const override { return "path"; }

@@ -23,7 +23,7 @@ struct SkyLuminance {
     double towards(const Vec3& direction) const;
 };
 
-/// What belongs to skies of the CIE by the altitude of the sun [radians].
+// The CIE's formulas for skies. Altitudes of the sun are in radians.
 
 /// The luminance of the zenith. `turbidity`: Linke's, of the air of a clear sky.
 double zenith_luminance_cd_m2(SkyType type, double sun_altitude, double turbidity);

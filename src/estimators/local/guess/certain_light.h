@@ -22,7 +22,7 @@ class CertainLight {
     CertainLight(const LightGuess& guess, const Sights& sights);
 
     using Illuminances = std::array<PointTile::Floats, kBands>;  ///< of a tile's receivers [lx]
-    /// What receivers on surfaces get, and then the share of each channel in it.
+    /// The illuminances of receivers on surfaces, followed by the share of each channel in them.
     std::vector<Illuminances> illuminances_lx(const PointTile& tile) const;
 
   private:

@@ -23,7 +23,8 @@ class LightVertices {
     static constexpr std::uint32_t kDark = ~0u;
 
     std::size_t count() const { return lit_.size(); }
-    /// Of a corner of a patch, on this side of that. kDark where the side carries no light.
+    /// The number of the light vertex at a patch's corner, for one side of the patch; kDark where that side
+    /// carries no light.
     std::uint32_t number_of(std::uint32_t vertex, std::uint32_t side) const {
         return numbers_[patches_->is_front(side) ? vertex : vertex + patches_->vertices.size()];
     }

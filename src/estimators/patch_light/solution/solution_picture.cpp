@@ -99,7 +99,7 @@ class SolutionPicture final : public Estimator {
                 path.luminance_cd_m2 += path.throughput * indirect(*locations[i], pass.replicate);
         }
         add_direct(standing);
-        started.add_to(sums, nullptr);
+        started.add_to(sums);
     }
 
     Rgb indirect(const PatchLocation& seen, std::uint64_t replicate) const {

@@ -85,7 +85,7 @@ class Assembly {
 
     void add_to_body(const Surface& surface, const Optics& optics) {
         const MaterialId material = material_of(optics);
-        // Of a sheet both sides are alike.
+        // Both sides of a sheet are alike.
         const bool is_sphere = surface.kind == SurfaceKind::bubble && !optics.is_solid;
         if (auto shape = simple_shape(is_sphere ? SurfaceKind::sphere : surface.kind, numbers_of(surface))) {
             scene_.add_object(surface.name, std::move(*shape), {material});

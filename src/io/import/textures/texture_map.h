@@ -52,7 +52,7 @@ struct PointOfTriangle {
 };
 std::vector<PointOfTriangle> points_on_surface(std::span<const double> areas_m2);
 
-/// What red, green and blue of a picture are: colours by the tone curve of sRGB, or numbers as they are.
+/// A picture stores red, green and blue by the tone curve of sRGB, or as plain numbers.
 enum class Texels { colours, numbers };
 
 /// The means of red, green, blue and alpha (from 0 to 1) at these texture coordinates, or over the whole
