@@ -1,5 +1,5 @@
 // The passes of a picture, and the paces of its cells, with a method whose means and errors are made up.
-#include "run/passes.h"
+#include "run/pictures/passes.h"
 
 #include <gtest/gtest.h>
 

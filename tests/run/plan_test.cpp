@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "estimators/estimator_list.h"
-#include "run/campaign.h"
 #include "run/glare/glare.h"
-#include "run/possible_light.h"
+#include "run/readings/campaign.h"
+#include "run/readings/possible_light.h"
 #include "run/run.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"

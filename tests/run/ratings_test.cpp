@@ -3,8 +3,8 @@
 
 #include <cmath>
 
+#include "run/readings/sensor_estimates.h"
 #include "run/run.h"
-#include "run/sensor_estimates.h"
 #include "stilb/error.h"
 #include "support/scene_builder.h"
 

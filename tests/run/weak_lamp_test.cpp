@@ -5,7 +5,7 @@
 
 #include "estimators/estimator_list.h"
 #include "materials/black.h"
-#include "run/possible_light.h"
+#include "run/readings/possible_light.h"
 #include "run/run.h"
 #include "support/scene_builder.h"
 #include "transport/receiver.h"

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "run/glare/glare_picture.h"
-#include "run/sensor_estimates.h"
+#include "run/readings/sensor_estimates.h"
 #include "transport/glare/glare.h"
 
 namespace stilb::run {

@@ -16,7 +16,7 @@
 #include "math/random.h"
 #include "rays/ray_caster.h"
 #include "run/glare/daylight_glare.h"
-#include "run/sensor_estimates.h"
+#include "run/readings/sensor_estimates.h"
 #include "transport/glare/glare.h"
 
 namespace stilb::run {

@@ -7,7 +7,7 @@
 
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
-#include "run/passes.h"
+#include "run/pictures/passes.h"
 #include "sensors/camera.h"
 
 namespace stilb::run {

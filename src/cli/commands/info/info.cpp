@@ -22,7 +22,7 @@
 #include "io/results/results_text.h"
 #include "io/text/file_kind.h"
 #include "io/text/text.h"
-#include "run/campaign.h"
+#include "run/readings/campaign.h"
 #include "stilb/error.h"
 
 namespace stilb::cli {

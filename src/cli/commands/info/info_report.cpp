@@ -13,7 +13,7 @@
 #include "io/mesh/mesh_file.h"
 #include "io/photometry/photometry_file.h"
 #include "materials/model_list.h"
-#include "run/campaign.h"
+#include "run/readings/campaign.h"
 #include "scene/installed_power.h"
 
 namespace stilb::cli {

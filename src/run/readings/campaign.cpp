@@ -1,4 +1,4 @@
-#include "run/campaign.h"
+#include "run/readings/campaign.h"
 
 #include <algorithm>
 #include <limits>
@@ -8,7 +8,7 @@
 #include "base/parallel.h"
 #include "run/glare/glare.h"
 #include "run/paces.h"
-#include "run/sensor_estimates.h"
+#include "run/readings/sensor_estimates.h"
 #include "run/streams.h"
 #include "stilb/error.h"
 

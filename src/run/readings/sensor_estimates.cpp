@@ -1,4 +1,4 @@
-#include "run/sensor_estimates.h"
+#include "run/readings/sensor_estimates.h"
 
 #include <algorithm>
 #include <limits>

@@ -6,8 +6,8 @@
 #include <span>
 
 #include "rays/ray_caster.h"
+#include "run/readings/sensor_estimates.h"
 #include "run/result.h"
-#include "run/sensor_estimates.h"
 
 namespace stilb::run {
 

@@ -1,4 +1,4 @@
-#include "run/passes.h"
+#include "run/pictures/passes.h"
 
 #include <algorithm>
 #include <memory>

@@ -1,4 +1,4 @@
-#include "run/power_density.h"
+#include "run/readings/power_density.h"
 
 #include <algorithm>
 #include <limits>

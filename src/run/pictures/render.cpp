@@ -14,7 +14,7 @@
 #include "estimators/estimator_list.h"
 #include "estimators/patch_light/solution/solution_picture.h"
 #include "run/level_of_detail.h"
-#include "run/passes.h"
+#include "run/pictures/passes.h"
 #include "run/pictures/picture_comparison.h"
 #include "run/run.h"
 #include "run/schedule.h"

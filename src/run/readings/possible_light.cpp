@@ -1,4 +1,4 @@
-#include "run/possible_light.h"
+#include "run/readings/possible_light.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,7 @@
 #include <algorithm>
 
+#include "run/readings/sensor_estimates.h"
 #include "run/result.h"
-#include "run/sensor_estimates.h"
 
 namespace stilb::run {
 namespace {

@@ -7,14 +7,14 @@
 #include <optional>
 
 #include "estimators/estimator_list.h"
-#include "run/campaign.h"
 #include "run/glare/glare.h"
 #include "run/glare/glare_picture.h"
 #include "run/level_of_detail.h"
-#include "run/possible_light.h"
-#include "run/power_density.h"
+#include "run/readings/campaign.h"
+#include "run/readings/possible_light.h"
+#include "run/readings/power_density.h"
+#include "run/readings/sensor_estimates.h"
 #include "run/run.h"
-#include "run/sensor_estimates.h"
 #include "run/streams.h"
 #include "stilb/error.h"
 #include "transport/line_of_sight.h"

@@ -11,7 +11,7 @@
 #include "estimators/estimator.h"
 #include "run/options.h"
 #include "run/plan.h"
-#include "run/possible_light.h"
+#include "run/readings/possible_light.h"
 #include "run/schedule.h"
 #include "sensors/sensor.h"
 #include "statistics/bias.h"

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "run/campaign.h"
+#include "run/readings/campaign.h"
 #include "run/result.h"
 #include "sensors/sensor.h"
 #include "statistics/grid_summary.h"
