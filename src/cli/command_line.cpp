@@ -337,6 +337,7 @@ void CommandLine::print_help(const std::string& command) const {
 
 int CommandLine::run(int argument_count, const char* const* arguments) {
     text_ = fmt::format("stilb {}", fmt::join(arguments + 1, arguments + argument_count, " "));
+    if (argument_count > 2) arguments_.assign(arguments + 2, arguments + argument_count);
     try {
         app_->parse(argument_count, arguments);
     } catch (const CLI::ParseError& error) {

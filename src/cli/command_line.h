@@ -104,6 +104,8 @@ class CommandLine {
     int run(int argument_count, const char* const* arguments);
     /// The command line as typed, for the headers of files.
     const std::string& text() const { return text_; }
+    /// What was typed behind the command's name.
+    const std::vector<std::string>& arguments() const { return arguments_; }
 
   private:
     /// Prints the help of a command, or of the program where the name is empty.
@@ -112,6 +114,7 @@ class CommandLine {
     std::unique_ptr<CLI::App> app_;
     std::vector<std::unique_ptr<CLI::App>> topics_;
     std::string text_;
+    std::vector<std::string> arguments_;
     int exit_code_ = kExitDone;
 };
 
@@ -130,6 +133,10 @@ void add_report(CommandLine& line);
 void add_export(CommandLine& line);
 void add_import(CommandLine& line);
 void add_verify(CommandLine& line);
+void add_merge(CommandLine& line);
+/// Runs a whole command line, with the program's name.
+using RunCommands = std::function<int(const std::vector<std::string>&)>;
+void add_resume(CommandLine& line, RunCommands run_commands);
 /// A topic of `help`.
 void add_patch_topic(CommandLine& line);
 

@@ -6,6 +6,8 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
+#include <string>
+#include <vector>
 
 #include "base/monitor.h"
 #include "cli/command_line.h"
@@ -17,9 +19,11 @@ namespace {
 
 using namespace stilb;
 
-int run_commands(int argument_count, const char* const* arguments) {
+int run_commands(const std::vector<std::string>& arguments) {
     cli::CommandLine line;
     cli::add_measure(line);
+    cli::add_resume(line, run_commands);
+    cli::add_merge(line);
     cli::add_solve(line);
     cli::add_render(line);
     cli::add_view(line);
@@ -33,7 +37,9 @@ int run_commands(int argument_count, const char* const* arguments) {
     papers::add_reproduce(line);
     cli::add_patch_topic(line);
     line.add_help();
-    return line.run(argument_count, arguments);
+    std::vector<const char*> texts;
+    for (const std::string& argument : arguments) texts.push_back(argument.c_str());
+    return line.run(static_cast<int>(texts.size()), texts.data());
 }
 
 /// Whether all that was printed has arrived. Short output is written only now, so that nothing before can
@@ -80,7 +86,7 @@ int main(int argument_count, char** arguments) {
     outlive_readers();
     cli::leave_no_unfinished_files();
     try {
-        const int exit_code = run_commands(argument_count, arguments);
+        const int exit_code = run_commands({arguments, arguments + argument_count});
         return is_stdout_written() ? exit_code : complain_of_stdout();
     } catch (const Cancelled& cancelled) {
         cli::print_failure(cancelled.what());

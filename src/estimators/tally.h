@@ -71,6 +71,11 @@ struct Tally {
           taken(packets),
           parts(channels * readings) {}
 
+    std::size_t channels() const { return sum.empty() ? 0 : parts.size() / sum.size(); }
+    bool is_of_same_readings(const Tally& other) const {
+        return sum.size() == other.sum.size() && taken.size() == other.taken.size() &&
+               parts.size() == other.parts.size();
+    }
     /// Counts the samples of a batch whose contributions are added.
     void count(const Batch& batch);
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -67,30 +68,86 @@ RunPlan RunPlan::read(ByteReader& bytes) {
     return plan;
 }
 
-void RunState::merge(RunState part) {
+void RunState::merge(RunState other) {
+    if (other.plan.seed == plan.seed && other.more_seeds.empty() && more_seeds.empty())
+        merge_part(std::move(other));
+    else
+        merge_seeds(std::move(other));
+}
+
+void RunState::merge_part(RunState part) {
     if (part.plan != plan) throw std::invalid_argument("the parts are of runs of different plans");
     if (tallies.empty())
         tallies = std::move(part.tallies);
     else if (!part.tallies.empty()) {
         for (std::size_t i = 0; i < tallies.size(); ++i) {
             if (part.tallies[i].samples == 0) continue;
-            if (tallies[i].samples > 0) throw std::invalid_argument("the parts have made the same samples");
+            if (tallies[i].samples > 0) throw std::invalid_argument("both have made the same samples");
             tallies[i] = std::move(part.tallies[i]);
         }
     }
 }
 
+void RunState::merge_seeds(RunState other) {
+    RunPlan same = other.plan;
+    same.seed = plan.seed;
+    same.paces = plan.paces;
+    if (same != plan) throw std::invalid_argument("the runs have different plans");
+    const std::vector<std::uint64_t> own = seeds();
+    const std::vector<std::uint64_t> others = other.seeds();
+    for (const std::uint64_t seed : others) {
+        if (std::ranges::find(own, seed) != own.end())
+            throw std::invalid_argument(fmt::format("both have samples of seed {}", seed));
+    }
+    if (tallies.empty() || tallies.size() != other.tallies.size() ||
+        tallies.front().sum.size() != other.tallies.front().sum.size())
+        throw std::invalid_argument("the sums are those of other readings");
+    more_seeds.insert(more_seeds.end(), others.begin(), others.end());
+    for (std::size_t i = 0; i < tallies.size(); ++i) tallies[i] += other.tallies[i];
+}
+
+std::vector<std::uint64_t> RunState::seeds() const {
+    std::vector<std::uint64_t> all{plan.seed};
+    all.insert(all.end(), more_seeds.begin(), more_seeds.end());
+    return all;
+}
+
+std::uint64_t RunState::samples() const {
+    std::uint64_t all = 0;
+    for (const estimators::Tally& tally : tallies) all += tally.samples;
+    return all;
+}
+
 void RunState::write(ByteWriter& bytes) const {
     plan.write(bytes);
+    bytes.add_list(more_seeds);
     bytes.add(std::uint64_t{tallies.size()});
-    for (const estimators::Tally& tally : tallies) tally.write(bytes);
+    for (const estimators::Tally& tally : tallies) {
+        // A part has most of its strands empty.
+        bytes.add(std::uint64_t{tally.samples > 0});
+        if (tally.samples > 0) tally.write(bytes);
+    }
 }
 
 RunState RunState::read(ByteReader& bytes) {
     RunState state{RunPlan::read(bytes), {}};
+    state.more_seeds = bytes.take_list<std::vector<std::uint64_t>>("other seeds");
     const auto count = bytes.take<std::uint64_t>("the number of sums");
     if (count != 0 && count != state.plan.units()) bytes.fail("the sums are not those of the plan");
-    for (std::uint64_t i = 0; i < count; ++i) state.tallies.push_back(estimators::Tally::read(bytes));
+    std::vector<std::optional<estimators::Tally>> tallies(count);
+    const estimators::Tally* some = nullptr;
+    for (std::optional<estimators::Tally>& tally : tallies) {
+        if (bytes.take<std::uint64_t>("whether there are sums") == 0) continue;
+        tally = estimators::Tally::read(bytes);
+        some = &*tally;
+    }
+    if (!some) return state;
+    const estimators::Tally empty(some->sum.size(), some->taken.size(), some->channels());
+    for (std::optional<estimators::Tally>& tally : tallies) {
+        if (tally && !tally->is_of_same_readings(empty))
+            bytes.fail("the sums have different numbers of readings");
+        state.tallies.push_back(tally ? *std::move(tally) : empty);
+    }
     return state;
 }
 

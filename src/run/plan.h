@@ -62,12 +62,24 @@ struct RunState {
     RunPlan plan;
     std::vector<estimators::Tally> tallies;  ///< of the strands, replicate by replicate; or none
 
-    /// Adds the strands that another part of the run has made. Throws std::invalid_argument for a run of
-    /// another plan, and where both have made the same strand.
-    void merge(RunState part);
+    /// The seeds of runs of the same plan, but for seed and paces, whose samples are among the sums. Such a
+    /// state has a result, but cannot be continued.
+    std::vector<std::uint64_t> more_seeds = {};
+
+    /// Adds the strands that another part of the run has made, or the samples of other seeds. Throws
+    /// std::invalid_argument for a run of another plan, and where both have made the same samples.
+    void merge(RunState other);
+
+    std::vector<std::uint64_t> seeds() const;
+    /// Of all replicates, as RunSummary.
+    std::uint64_t samples() const;
 
     void write(ByteWriter& bytes) const;
     static RunState read(ByteReader& bytes);
+
+  private:
+    void merge_part(RunState part);
+    void merge_seeds(RunState other);
 };
 
 }  // namespace stilb::run

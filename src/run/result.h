@@ -31,6 +31,9 @@ enum class StopReason {
 /// As JSON has them, in the order of the enumeration.
 inline constexpr std::array<std::string_view, 6> kStopReasonNames{
     "target reached", "requirements decided", "paths done", "time over", "interrupted", "patches too coarse"};
+constexpr std::string_view name_of(StopReason reason) {
+    return kStopReasonNames[static_cast<std::size_t>(reason)];
+}
 
 /// The truncation of the series of an object (level_of_detail.h).
 struct LevelOfDetail {

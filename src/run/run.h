@@ -75,12 +75,17 @@ RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, c
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   RunState* state = nullptr);
 
+/// The result of the sums in `state`, without more samples, at the limits that the run had.
+RunResult result_of(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+                    RunState& state, ProgressSink* progress = nullptr,
+                    const std::atomic<bool>* interrupt = nullptr);
+
 /// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.
-/// Throws as measure() does, and std::invalid_argument where the plan is not complete. All parts need the
-/// same options.
-void measure_part(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
-                  RunPart part, RunState& state, ProgressSink* progress = nullptr,
-                  const std::atomic<bool>* interrupt = nullptr);
+/// Throws as measure() does. All parts need the same options, and the same plan. A plan that is not complete
+/// is completed by the first samples of all parts, which cost each part as much as the whole run.
+RunSummary measure_part(const PreparedScene& scene, std::span<const Sensor> sensors,
+                        const RunOptions& options, RunPart part, RunState& state,
+                        ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr);
 
 // Pictures, pass by pass, with standard errors.
 

@@ -290,7 +290,7 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
               {"replicates", result.replicates},
               {"rays", result.rays},
               {"converged", result.converged},
-              {"stopped", run::kStopReasonNames[static_cast<std::size_t>(result.stop_reason)]},
+              {"stopped", run::name_of(result.stop_reason)},
               {"attained_error", result.attained_error}};
     if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
     json["warnings"] = texts_of(result.warnings);

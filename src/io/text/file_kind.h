@@ -16,6 +16,7 @@ enum class FileKind {
     png_picture,
     svg_drawing,
     solution,
+    run,      ///< the state of a run
     walk,     ///< a page to walk through a scene
     report,   ///< a page with the results of a scene
     series,   ///< a surface by spherical harmonics
@@ -39,6 +40,8 @@ enum class FileKind {
 
 /// The first bytes of a solution.
 inline constexpr std::string_view kSolutionBeginning = "STILBSOL";
+/// The same of the state of a run.
+inline constexpr std::string_view kRunBeginning = "STILBRUN";
 /// How the head of a page to walk through a scene names its origin.
 inline constexpr std::string_view kWalkMark = R"(<meta name="generator" content="stilb view">)";
 /// The same of a report.

@@ -198,6 +198,13 @@ void Campaign::advance(std::uint64_t count) {
     if (plan().has_paces && plan().paces.empty() && samples_ >= kSamplesBeforePaces) set_paces();
 }
 
+void Campaign::complete_plan(std::uint64_t paths) {
+    const std::uint64_t last = samples_for(paths);
+    while (!plan().is_complete() && samples_ < last)
+        advance(std::min(most_at_once(), std::min(last, next_check()) - samples_));
+    state_.plan.has_paces = !plan().paces.empty();
+}
+
 void Campaign::set_paces() {
     std::vector<std::size_t> readings;
     for (const Sensor& sensor : sensors_) readings.push_back(sensor.size());

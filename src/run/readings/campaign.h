@@ -55,6 +55,10 @@ class Campaign final : public Work {
     /// the same expectation, and their spread still gives the error of their mean.
     void advance(std::uint64_t count) override;
 
+    /// Makes the first samples of a whole run, until they have decided all that the plan of its parts needs,
+    /// or all `paths` are made.
+    void complete_plan(std::uint64_t paths);
+
     /// The error of the worst sensor.
     double attained_error() const override;
     bool is_decided() const override;

@@ -272,25 +272,31 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
         scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
 }
 
+enum class Samples { as_asked, no_more };
+
 /// Begins a run, or continues one that has a plan. A part of a run has no results.
 RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> given_sensors,
                        const RunOptions& asked_options, ProgressSink* progress,
-                       const std::atomic<bool>* interrupt, RunState& state, RunPart part) {
+                       const std::atomic<bool>* interrupt, RunState& state, RunPart part,
+                       Samples samples = Samples::as_asked) {
     const Scene& scene = prepared.scene();
     if (has_levels_of_detail(scene)) {
         DetailedScene detailed = with_levels_of_detail(scene, given_sensors);
-        RunResult result =
-            run_readings(detailed.scene, given_sensors, asked_options, progress, interrupt, state, part);
+        RunResult result = run_readings(detailed.scene, given_sensors, asked_options, progress, interrupt,
+                                        state, part, samples);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
     const bool begins = state.plan.technique.empty();
     require_readings(given_sensors);
     require_valid(asked_options);
+    if (samples == Samples::as_asked && !state.more_seeds.empty())
+        throw std::invalid_argument("the sums are of several seeds, and cannot be continued");
     const estimators::EstimatorEntry& method =
         estimators::find_estimator(begins ? asked_options.method : state.plan.technique);
     RunOptions options = with_reading_target(asked_options, given_sensors);
     if (!begins) options.seed = state.plan.seed;
+    if (samples == Samples::no_more) options.paths = 0;  // there are as many
     require_measurable(given_sensors, method);
 
     Session session(prepared, given_sensors, asked_options, options, progress, interrupt);
@@ -318,8 +324,17 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
                       key_of_seed(options.seed).derived(RunStream::glare));
     });
     const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
-    Campaign campaign(*estimator, sensors, *glare, possible, wanted.measurands.size(), state, options,
-                      std::min(sharp.samples, kMostAwaited), part);
+    const auto campaign_of = [&](RunState& sums, RunPart strands) {
+        return std::make_unique<Campaign>(*estimator, sensors, *glare, possible, wanted.measurands.size(),
+                                          sums, options, std::min(sharp.samples, kMostAwaited), strands);
+    };
+    if (part.of > 1 && !state.plan.is_complete()) {
+        RunState first{state.plan, {}};
+        session.on_threads([&] { campaign_of(first, {})->complete_plan(options.paths.value()); });
+        state.plan = std::move(first.plan);
+    }
+    const std::unique_ptr<Campaign> owned = campaign_of(state, part);
+    Campaign& campaign = *owned;
     RunResult result;
     session.on_threads([&] { session.run(campaign, result); });
     campaign.require_valid();
@@ -347,14 +362,22 @@ RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, c
     return run_readings(scene, sensors, options, progress, interrupt, state ? *state : own, {});
 }
 
-void measure_part(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
-                  RunPart part, RunState& state, ProgressSink* progress, const std::atomic<bool>* interrupt) {
+RunResult result_of(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
+                    RunState& state, ProgressSink* progress, const std::atomic<bool>* interrupt) {
+    RunOptions without_limit = options;
+    without_limit.time_s.reset();
+    return run_readings(scene, sensors, without_limit, progress, interrupt, state, {}, Samples::no_more);
+}
+
+RunSummary measure_part(const PreparedScene& scene, std::span<const Sensor> sensors,
+                        const RunOptions& options, RunPart part, RunState& state, ProgressSink* progress,
+                        const std::atomic<bool>* interrupt) {
     if (!options.paths)
         throw InputError("a part of a run needs a number of paths: it cannot tell the error of the whole");
     if (part.number >= part.of)
         throw InputError(fmt::format("part {} of {} does not exist: the first one is 0, the last one {}",
                                      part.number, part.of, std::max<std::size_t>(part.of, 1) - 1));
-    run_readings(scene, sensors, options, progress, interrupt, state, part);
+    return run_readings(scene, sensors, options, progress, interrupt, state, part);
 }
 
 }  // namespace stilb::run
