@@ -74,6 +74,15 @@ class ByteReader {
         skip(list.size() * sizeof(T));
         return list;
     }
+    /// Replaces the entries of a list, whose number stays.
+    template <typename List>
+    void take_same_size(List& list, std::string_view what) {
+        auto taken = take_list<List>(what);
+        if (taken.size() != list.size())
+            fail(fmt::format("{}: {} entries are expected, but there are {}", what, list.size(),
+                             taken.size()));
+        list = std::move(taken);
+    }
     void expect_end() const {
         if (!rest_.empty()) fail(fmt::format("{} surplus bytes", rest_.size()));
     }

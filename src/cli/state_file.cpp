@@ -45,21 +45,22 @@ void StateFlags::add_to(Command& command) {
 }
 
 StateFile::StateFile(const StateFlags& flags, std::string_view command, const CommandLine& line,
-                     const io::SceneFile& scene, std::span<const Sensor> sensors, const RunOptions& options)
+                     std::span<const std::filesystem::path> sources,
+                     const std::function<io::RunTraits()>& traits)
     : path_(flags.path), every_s_(flags.every_s) {
     if (path_.empty()) return;
-    if (scene.sources.empty() || io::is_standard_output(path_)) {
+    if (sources.empty() || io::is_standard_output(path_)) {
         throw InputError(
             "--state needs a scene and a state in files, not standard input and output: who goes on reads "
             "them again.");
     }
-    io::require_output(path_, io::FileKind::run, scene.sources);
+    io::require_output(path_, io::FileKind::run, sources);
     constexpr std::array<std::string_view, 2> own{"--state", "--state-every"};
     stored_.origin = {program_version(),
                       std::string(command),
                       without_flags(line.arguments(), own),
                       relative_folder(path_),
-                      io::traits_of(scene, sensors, options),
+                      traits(),
                       0,
                       ""};
     stamp_ = stamp_of(path_);
@@ -126,6 +127,8 @@ void StateFile::write_if_due() {
     writing_s_ = since_s(begin);
     written_ = std::chrono::steady_clock::now();
 }
+
+std::string sums_of_picture(const Sensor& camera) { return fmt::format("picture {}", camera.name); }
 
 std::vector<std::string> without_flags(std::vector<std::string> arguments,
                                        std::span<const std::string_view> flags) {

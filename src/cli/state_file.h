@@ -13,6 +13,7 @@
 #include "cli/command_line.h"
 #include "io/results/run_file.h"
 #include "run/run.h"
+#include "run/solve.h"
 
 namespace stilb::cli {
 
@@ -27,10 +28,11 @@ struct StateFlags {
 /// Without --state, it keeps nothing.
 class StateFile {
   public:
-    /// Reads the file where there is one already. `command`: its name; `line`: it as typed. Throws InputError
-    /// where the file is not the state of this run, or could not be written.
+    /// Reads the file where there is one already. `command`: its name; `line`: it as typed; `sources`: the
+    /// files of the scene; `traits`: called where a state is kept. Throws InputError where the file is not
+    /// the state of this run, or could not be written.
     StateFile(const StateFlags& flags, std::string_view command, const CommandLine& line,
-              const io::SceneFile& scene, std::span<const Sensor> sensors, const RunOptions& options);
+              std::span<const std::filesystem::path> sources, const std::function<io::RunTraits()>& traits);
 
     /// Sets sums that the file has under this name; they are written from now on. Keeps a reference.
     template <typename Sums>
@@ -71,6 +73,7 @@ class StateFile {
     void write_or_warn();
     static bool has_begun(const run::RunState& state) { return !state.plan.technique.empty(); }
     static bool has_begun(const run::PictureSums& sums);
+    static bool has_begun(const run::SolutionState& state) { return state.has_begun(); }
     double elapsed_s() const;
     void require_own_file() const;
 
@@ -103,6 +106,9 @@ class KeepingState final : public PictureSink {
     PictureSink* shown_;
     StateFile& file_;
 };
+
+/// The name of a picture's sums in state files.
+std::string sums_of_picture(const Sensor& camera);
 
 /// The arguments of a command without these flags and their values.
 std::vector<std::string> without_flags(std::vector<std::string> arguments,

@@ -24,6 +24,13 @@
 #include "transport/receiver.h"
 
 namespace stilb::run {
+
+SolutionState SolutionState::read(ByteReader& bytes) {
+    SolutionState state;
+    state.bytes_ = bytes.take_list<std::string>("the solution");
+    return state;
+}
+
 namespace {
 
 constexpr const char* kMethod = "ray-bundle";
@@ -83,14 +90,18 @@ class Walks final : public Work {
         return std::numeric_limits<std::uint32_t>::max() / kSolutionReplicates;
     }
     std::uint64_t next_check() const override { return statistics::next_check(samples(), kFirstCheck); }
+    bool is_at_check() const override {
+        return samples() > 0 && statistics::next_check(samples() - 1, kFirstCheck) == samples();
+    }
     std::uint64_t most_at_once() const override { return kStepsAtOnce; }
     bool has_result() const override { return samples() >= estimators::LightGather::kFirstSteps; }
 
-    /// Walks and gathering step at the same time; what is gathered has the walks' light of the step before.
+    /// Walks and gathering step at the same time; what is gathered has the walks' light of the step before. A
+    /// step is not interrupted: another run continues whole steps.
     void advance(std::uint64_t steps) override {
         for (std::uint64_t i = 0; i < steps; ++i) {
+            monitor_.require_more();
             parallel_for(walks_.size() + 1, [&](std::size_t task) {
-                monitor_.require_more();
                 task < walks_.size() ? walks_[task].step() : gather_->step();
             });
             add_walks();
@@ -110,6 +121,20 @@ class Walks final : public Work {
         so_far.samples = samples_in_all();
         so_far.attained_error = attained_error();
         sink_->show(solution(), so_far);
+    }
+
+    std::string bytes() const {
+        ByteWriter bytes;
+        for (const estimators::BundleIteration& walk : walks_) walk.write(bytes);
+        sums_->write(bytes);
+        gather_->write(bytes);
+        return bytes.take();
+    }
+    void read(ByteReader bytes) {
+        for (estimators::BundleIteration& walk : walks_) walk.read(bytes);
+        sums_->read(bytes);
+        gather_->read(bytes);
+        bytes.expect_end();
     }
 
     /// At the end: the memory of the walks is free for it.
@@ -175,6 +200,21 @@ class Walks final : public Work {
     std::optional<estimators::LightGather> gather_;
 };
 
+/// Runs the walks, from the state on where there is one, and leaves the state as it is then.
+void run_from(SolutionState* state, Walks& walks, Session& session, RunSummary& result) {
+    if (!state) return session.run(walks, result);
+    static const std::string name = "the state of the solution";
+    if (state->has_begun()) walks.read({state->bytes(), 0, name, "Solve the scene again."});
+    state->follow([&walks] { return walks.bytes(); });
+    try {
+        session.run(walks, result);
+    } catch (...) {
+        state->end();
+        throw;
+    }
+    state->end();
+}
+
 RunOptions with_solution_target(RunOptions options) {
     constexpr double default_time_s = 60;
     if (!options.error && !options.time_s && !options.paths) options.time_s = default_time_s;
@@ -201,7 +241,8 @@ void require_storable(const Scene& scene, const RunOptions& options, int degree)
 }  // namespace
 
 SolveResult solve(const PreparedScene& prepared, const RunOptions& asked_options, int degree,
-                  ProgressSink* progress, const std::atomic<bool>* interrupt, SolutionSink* sink) {
+                  ProgressSink* progress, const std::atomic<bool>* interrupt, SolutionSink* sink,
+                  SolutionState* state) {
     const Scene& scene = prepared.scene();
     require_valid(asked_options);
     require_storable(scene, asked_options, degree);
@@ -218,7 +259,7 @@ SolveResult solve(const PreparedScene& prepared, const RunOptions& asked_options
                                                    {options.patches, options.patch_m}, monitor);
         const LightGroups groups = scene::light_groups(scene);
         Walks walks(transport, degree, groups, options.seed, monitor, sink);
-        session.run(walks, result);
+        run_from(state, walks, session, result);
         result.patches = transport.report();
         result.solution = walks.last_solution();
     });

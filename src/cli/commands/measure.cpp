@@ -170,7 +170,9 @@ int make_part(const MeasureRequest& request, const Measurement& measurement, Sta
 int run_measure(const MeasureRequest& request, const CommandLine& line) {
     const Measurement measurement = prepared(request);
     const auto& [file, sensors, options] = measurement;
-    StateFile state_file(request.state, "measure", line, file, sensors, options);
+    StateFile state_file(request.state, "measure", line, file.sources, [&] {
+        return io::traits_of(measurement.file, measurement.sensors, measurement.options);
+    });
     run::RunState state;
     state_file.keep(std::string(kReadingSums), state);
     if (!state.more_seeds.empty()) {
@@ -340,6 +342,7 @@ int show_stored(const io::StoredRun& stored, const std::string& name, const Show
     auto state = io::read_sums<run::RunState>(stored, kReadingSums, name);
     RunResult result = run::result_of(file.scene, sensors, options, state, nullptr, &watch_for_interrupt());
     result.elapsed_s = stored.origin.elapsed_s;
+    result.stop_reason = io::stop_reason_of(stored.origin).value_or(StopReason::interrupted);
     Outputs outputs;
     return show(std::move(result), measurement, request, outputs);
 }

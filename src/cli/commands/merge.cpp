@@ -53,6 +53,7 @@ io::StoredRun merged(const std::vector<std::string>& files) {
     }
     all.origin.arguments =
         without_flags(std::move(all.origin.arguments), std::array<std::string_view, 1>{"--part"});
+    all.origin.ending = run::name_of(StopReason::paths_done);
     all.sums = {{std::string(kReadingSums), io::sums_of(sums)}};
     return all;
 }

@@ -17,6 +17,7 @@
 #include "cli/progress.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
+#include "cli/state_file.h"
 #include "io/image/picture_file.h"
 #include "io/import/scene_formats.h"
 #include "io/import/view_file.h"
@@ -27,6 +28,7 @@
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
 #include "rays/ray_caster.h"
+#include "run/pictures/picture_sums.h"
 #include "run/run.h"
 #include "scene/light_groups.h"
 #include "scene/whites.h"
@@ -49,6 +51,7 @@ struct RenderRequest {
     std::vector<LightFactor> factors;  ///< of lights, with a solution
     io::ToneOptions tone;
     std::string white = "auto";
+    StateFlags state;
     RunFlags flags;
 };
 
@@ -133,6 +136,8 @@ void require_no_run_flags(const RunFlags& flags) {
 /// Reads the solution named by --from. Its scene becomes the request's scene unless one is given.
 io::StoredSolution read_solution_for(RenderRequest& request) {
     require_no_run_flags(request.flags);
+    if (!request.state.path.empty())
+        throw InputError("--state has no effect with --from: the light of a solution is known already.");
     io::StoredSolution stored = io::read_solution_file(request.solution);
     if (!request.scene.empty()) return stored;
     const auto scene = std::filesystem::path(request.solution).parent_path() / stored.scene;
@@ -149,7 +154,8 @@ io::StoredSolution read_solution_for(RenderRequest& request) {
 
 /// Computes the picture, from the stored solution where there is one.
 RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, const Sensor& sensor,
-                      std::optional<io::StoredSolution> stored, io::PictureOrigin& origin) {
+                      std::optional<io::StoredSolution> stored, const CommandLine& line,
+                      io::PictureOrigin& origin, Outputs& outputs) {
     if (stored) {
         origin.method = "solution";
         origin.seed = stored->seed;
@@ -162,8 +168,18 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         with_picture_reserve(request.flags.over(file.run), sensor.camera()->resolution);
     origin.method = options.method;
     origin.seed = options.seed;
+    StateFile state_file(request.state, "render", line, file.sources, [&] {
+        return io::traits_of(file, {&sensor, 1}, options);
+    });
+    run::PictureSums sums;
+    state_file.keep(sums_of_picture(sensor), sums);
     RenderProgress progress(request, *sensor.camera(), origin);
-    return render(file.scene, sensor, options, &progress, &watch_for_interrupt());
+    KeepingState keeping(&progress, state_file);
+    RenderResult result = state_file.keeping_state(
+        [&] { return render(file.scene, sensor, options, &keeping, &watch_for_interrupt(), &sums); });
+    result.elapsed_s += state_file.elapsed_before_s();
+    outputs.write([&] { state_file.write(result.stop_reason); });
+    return result;
 }
 
 /// The white that --white chooses. With "auto" it is that of the lights, with the factors of the picture.
@@ -236,7 +252,7 @@ void take_first_look(RenderRequest& request, io::SceneFile& file) {
     file.run.bounces = 1;  // no noise
 }
 
-int run_render(RenderRequest request) {
+int run_render(RenderRequest request, const CommandLine& line) {
     settle_preview(request);
     if (request.output.empty())
         throw InputError("-o is missing. It gives the picture to write: -o FILE.exr, .hdr or .png.");
@@ -264,12 +280,12 @@ int run_render(RenderRequest request) {
     origin.sensor = sensor.name;
     origin.command = request.command;
     origin.version = program_version();
-    RenderResult result = rendered(request, file, sensor, std::move(stored), origin);
+    Outputs outputs;
+    RenderResult result = rendered(request, file, sensor, std::move(stored), line, origin, outputs);
     if (request.is_first_look) result.warnings.clear();  // of a scene without its lamps
     put_first(file.warnings, result);
     const io::Picture picture = picture_of(result, *sensor.camera(), origin);
     // The files come before all messages: the terminal may be closed by now.
-    Outputs outputs;
     std::optional<io::ToneCurve> curve;
     outputs.write([&] { curve = write_picture(picture, request.output, request.tone); });
     if (!request.preview.empty())
@@ -341,10 +357,11 @@ void add_render(CommandLine& line) {
     command.find("--set").description(
         "Take this value instead of the scene file's (materials.wall.reflectance=0.4); with --from also a "
         "factor for the light of a group or of a lamp (lamp=0.4, lamp=[1, 0.8, 0.5])");
+    request->state.add_to(command);
     request->flags.add_to(command, {"target"});
     command.run([request, &line] {
         request->command = line.text();
-        return run_render(*request);
+        return run_render(*request, line);
     });
 }
 

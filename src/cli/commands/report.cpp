@@ -6,20 +6,24 @@
 
 #include <algorithm>
 #include <ctime>
+#include <list>
 #include <memory>
 #include <optional>
 #include <utility>
 
 #include "cli/browser.h"
 #include "cli/command_line.h"
+#include "cli/commands/measure.h"
 #include "cli/commands/measure_flags.h"
 #include "cli/commands/results_table.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
+#include "cli/state_file.h"
 #include "estimators/estimator_list.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
+#include "run/pictures/picture_sums.h"
 #include "run/run.h"
 #include "scene/whites.h"
 #include "stilb/error.h"
@@ -35,6 +39,7 @@ struct ReportRequest {
     std::optional<double> view_time_s;
     std::optional<std::uint64_t> view_passes;
     bool lists_readings = false;
+    StateFlags state;
     MeasureFlags flags;
 };
 
@@ -89,15 +94,21 @@ void add_new(std::span<const Warning> more, std::vector<Warning>& warnings) {
 
 class Reporting {
   public:
-    Reporting(const ReportRequest& request, const io::SceneFile& file, const RunOptions& options)
-        : request_(request), report_{file, request.scene, request.command,       {}, options, {},
-                                     {},   file.warnings, request.lists_readings} {}
+    Reporting(const ReportRequest& request, const io::SceneFile& file, const RunOptions& options,
+              StateFile& state_file)
+        : request_(request), state_file_(state_file), report_{file, request.scene, request.command,
+                                                              {},   options,       {},
+                                                              {},   file.warnings, request.lists_readings} {}
 
     void measure(const std::vector<Sensor>& meters) {
         const std::string_view samples = estimators::find_estimator(report_.options.method).samples;
         TerminalProgress progress(std::string(samples), request_.flags.run.off_terminal());
-        report_.readings = run::measure(report_.file.scene, meters, report_.options, shown(progress),
-                                        &watch_for_interrupt());
+        KeepingState keeping(shown(progress), state_file_);
+        state_file_.keep(std::string(kReadingSums), readings_);
+        report_.readings = state_file_.keeping_state([&] {
+            return run::measure(report_.file.scene, meters, report_.options, &keeping, &watch_for_interrupt(),
+                                &readings_);
+        });
         add_new(report_.readings->warnings, report_.warnings);
     }
 
@@ -105,10 +116,13 @@ class Reporting {
     void render(const Sensor& camera) {
         const Scene& scene = report_.file.scene;
         TerminalProgress progress("passes", request_.flags.run.off_terminal());
+        KeepingState keeping(shown(progress), state_file_);
+        run::PictureSums& sums = pictures_.emplace_back();
+        state_file_.keep(sums_of_picture(camera), sums);
         try {
             const RenderResult result =
                 run::render(scene, camera, view_options(request_, report_.options, *camera.camera()),
-                            shown(progress), &watch_for_interrupt());
+                            &keeping, &watch_for_interrupt(), &sums);
             report_.views.push_back(report::make_view(result, camera, scene, whites_of_lights(scene)));
             add_new(result.warnings, report_.warnings);
         } catch (const Cancelled& cancelled) {
@@ -120,6 +134,11 @@ class Reporting {
     }
 
     report::Report& report() { return report_; }
+    /// Of the readings, or of pictures alone.
+    StopReason stop_reason() const {
+        if (lacks_views_) return StopReason::interrupted;
+        return report_.readings ? report_.readings->stop_reason : StopReason::paths_done;
+    }
     int exit_code() const {
         const int of_readings = report_.readings ? request_.flags.exit_code_of(*report_.readings) : kExitDone;
         return of_readings == kExitDone && lacks_views_ ? kExitStoppedEarly : of_readings;
@@ -131,7 +150,10 @@ class Reporting {
     }
 
     const ReportRequest& request_;
+    StateFile& state_file_;
     report::Report report_;
+    run::RunState readings_;
+    std::list<run::PictureSums> pictures_;
     bool lacks_views_ = false;
 };
 
@@ -148,7 +170,7 @@ void print_summary(const report::Report& report, const std::string& output,
     }
 }
 
-int run_report(const ReportRequest& request) {
+int run_report(const ReportRequest& request, const CommandLine& line) {
     io::SceneFile file =
         read_scene(request.scene, request.flags.overrides, request.views, request.flags.run.show_progress());
     std::vector<std::string> planes;
@@ -156,13 +178,18 @@ int run_report(const ReportRequest& request) {
     const auto [meters, cameras] = choose_sensors(file.sensors, request.flags.sensors, request.scene);
     const RunOptions options = request.flags.options_for(meters, file.run, request.scene);
     require_page(request.output, file.sources);
-    Reporting reporting(request, file, options);
+    std::vector<Sensor> sensors = meters;
+    sensors.insert(sensors.end(), cameras.begin(), cameras.end());
+    StateFile state_file(request.state, "report", line, file.sources,
+                         [&] { return io::traits_of(file, sensors, options); });
+    Reporting reporting(request, file, options, state_file);
     if (!meters.empty()) reporting.measure(meters);
     for (const Sensor& camera : cameras) reporting.render(camera);
     report::Report& report = reporting.report();
     report.date = fmt::format("{:%Y-%m-%d %H:%M} UTC", fmt::gmtime(std::time(nullptr)));
     const std::string page = to_html(report);
     Outputs outputs;  // before all messages: the terminal may be closed by now
+    outputs.write([&] { state_file.write(reporting.stop_reason()); });
     const bool is_written = outputs.write([&] { io::replace_file(request.output, page); });
     if (!request.flags.run.quiet) print_warnings(report.warnings);
     print_summary(report, request.output, is_written ? std::optional(page.size()) : std::nullopt);
@@ -197,11 +224,12 @@ void add_report(CommandLine& line) {
         .value_name("N");
     command.add("--readings", request->lists_readings, "Also list all readings, with their intervals");
     add_views(command, request->views);
+    request->state.add_to(command);
     request->flags.add_to(command);
     command.find("--sensor").description("Report only this sensor or camera (may be repeated)");
     command.run([request, &line] {
         request->command = line.text();
-        return run_report(*request);
+        return run_report(*request, line);
     });
 }
 

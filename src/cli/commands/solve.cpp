@@ -14,6 +14,7 @@
 #include "cli/progress.h"
 #include "cli/run_flags.h"
 #include "cli/scene_argument.h"
+#include "cli/state_file.h"
 #include "io/results/results_text.h"
 #include "io/results/solution_file.h"
 #include "io/text/file_kind.h"
@@ -25,6 +26,7 @@ struct SolveRequest {
     std::string scene, output;
     std::vector<std::string> overrides;
     std::optional<int> degree;
+    StateFlags state;
     RunFlags flags;
 };
 
@@ -47,22 +49,34 @@ void print_summary(const SolveResult& result, const io::StoredSolution& stored,
     fmt::print(stream, "{}", io::patch_text(*result.patches));
 }
 
-int run_solve(const SolveRequest& request) {
+int run_solve(const SolveRequest& request, const CommandLine& line) {
     io::SceneFile file = read_scene(request.scene, request.overrides, request.flags.show_progress());
     file.run.method = "ray-bundle";
     const RunOptions options = request.flags.over(file.run);
     io::require_output(request.output, io::FileKind::solution, file.sources);
+    const int degree = request.degree.value_or(run::kDefaultDegree);
+    StateFile state_file(request.state, "solve", line, file.sources, [&] {
+        io::RunTraits traits = io::traits_of(file, {}, options);
+        traits.push_back({"degree", fmt::format("{}", degree)});
+        return traits;
+    });
+    run::SolutionState state;
+    state_file.keep("solution", state);
     SolveResult result;
     {
         TerminalProgress progress("steps", request.flags.off_terminal());
-        result = solve(file.scene, options, request.degree.value_or(run::kDefaultDegree),
-                       request.flags.quiet ? nullptr : &progress, &watch_for_interrupt());
+        KeepingState keeping(request.flags.quiet ? nullptr : &progress, state_file);
+        result = state_file.keeping_state([&] {
+            return solve(file.scene, options, degree, &keeping, &watch_for_interrupt(), nullptr, &state);
+        });
     }
+    result.elapsed_s += state_file.elapsed_before_s();
     put_first(file.warnings, result);
     const io::StoredSolution solution =
         io::stored_solution(result, std::move(result.solution), file, request.output);
     // Before all messages: the terminal may be closed by now.
     Outputs outputs;
+    outputs.write([&] { state_file.write(result.stop_reason); });
     std::optional<std::size_t> bytes;
     outputs.write([&] { bytes = write_solution_file(solution, request.output); });
     if (!request.flags.quiet) print_warnings(result.warnings);
@@ -86,8 +100,9 @@ void add_solve(CommandLine& line) {
         .required()
         .value_name("FILE");
     add_overrides(command, request->overrides);
+    request->state.add_to(command);
     request->flags.add_those_of_solutions(command, request->degree);
-    command.run([request] { return run_solve(*request); });
+    command.run([request, &line] { return run_solve(*request, line); });
 }
 
 }  // namespace stilb::cli

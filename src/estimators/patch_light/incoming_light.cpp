@@ -44,6 +44,17 @@ TermSums TermSums::of_sides(std::vector<std::uint32_t> sides) const {
     return chosen;
 }
 
+void TermSums::write(ByteWriter& bytes) const {
+    bytes.add(steps_);
+    bytes.add_list(sums_);
+}
+
+void TermSums::read(ByteReader& bytes) {
+    steps_ = bytes.take<std::uint64_t>("the steps of all walks");
+    if (steps_ == 0) bytes.fail("the walks have no steps");
+    bytes.take_same_size(sums_, "the light of the patches");
+}
+
 void TermSums::add(std::span<const BundleIteration* const> walks) {
     constexpr std::size_t sides_at_once = 256;
     const auto add_part = [&](std::size_t first, std::size_t last) {

@@ -70,6 +70,10 @@ class TermSums {
         return std::span(sums_).subspan(first_of(group, side), layout_.count_of(side));
     }
 
+    /// As those of BundleIteration.
+    void write(ByteWriter& bytes) const;
+    void read(ByteReader& bytes);
+
   private:
     void add(std::span<const BundleIteration* const> walks, std::uint32_t side);
     /// A side's groups lie beside each other in memory, because they are read together.

@@ -14,6 +14,7 @@
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "run/pictures/picture_sums.h"
+#include "run/solve.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -232,11 +233,15 @@ RunTraits traits_of(const SceneFile& scene, std::span<const Sensor> sensors, con
     return traits;
 }
 
+std::optional<StopReason> stop_reason_of(const RunOrigin& origin) {
+    const auto found = std::ranges::find(run::kStopReasonNames, origin.ending);
+    if (found == run::kStopReasonNames.end()) return std::nullopt;
+    return static_cast<StopReason>(found - run::kStopReasonNames.begin());
+}
+
 bool is_finished(const RunOrigin& origin) {
-    using enum StopReason;
-    constexpr std::array reasons{target_reached, requirements_decided, paths_done, patches_too_coarse};
-    return std::ranges::any_of(reasons,
-                               [&](StopReason reason) { return origin.ending == run::name_of(reason); });
+    const std::optional<StopReason> reason = stop_reason_of(origin);
+    return reason && *reason != StopReason::time_over && *reason != StopReason::interrupted;
 }
 
 void require_same_run(const RunOrigin& stored, const RunTraits& traits, const std::string& name) {
@@ -263,6 +268,7 @@ Sums read_sums(const StoredRun& stored, std::string_view name, const std::string
     return sums;
 }
 template run::RunState read_sums(const StoredRun&, std::string_view, const std::string&);
+template run::SolutionState read_sums(const StoredRun&, std::string_view, const std::string&);
 template run::PictureSums read_sums(const StoredRun&, std::string_view, const std::string&);
 
 std::string to_bytes(const StoredRun& stored) {

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -47,6 +47,8 @@ struct StoredSums {
     std::string bytes;
 };
 
+/// Nothing of a run that goes on.
+std::optional<StopReason> stop_reason_of(const RunOrigin& origin);
 /// Whether the run has ended with nothing left to do at its limits.
 bool is_finished(const RunOrigin& origin);
 

@@ -98,6 +98,22 @@ void BundleIteration::step() {
     received_along_ = frame;
 }
 
+void BundleIteration::write(ByteWriter& bytes) const {
+    bytes.add(steps_);
+    bytes.add(rays_);
+    bytes.add(received_along_);
+    bytes.add_list(received_);
+    bytes.add_list(glossy_received_);
+}
+
+void BundleIteration::read(ByteReader& bytes) {
+    steps_ = bytes.take<std::uint64_t>("the steps of a walk");
+    rays_ = bytes.take<std::uint64_t>("the rays of a walk");
+    received_along_ = bytes.take<Frame>("the axes of a walk");
+    bytes.take_same_size(received_, "the light of a walk");
+    bytes.take_same_size(glossy_received_, "the light of a walk on glossy sides");
+}
+
 /// Step n lacks about r^n of the reflected light, where r is the mean reflectance; all steps from m on,
 /// averaged over m steps, r^m / (m (1 - r)).
 std::uint64_t first_steps(const PatchTransport& transport) {

@@ -22,6 +22,7 @@
 #include <span>
 #include <vector>
 
+#include "base/bytes.h"
 #include "estimators/patch_light/patch_readings.h"
 #include "math/random.h"
 #include "scene/light_groups.h"
@@ -61,6 +62,11 @@ class BundleIteration final : public PatchLight {
     void for_each_arrival(std::uint32_t side, const Visit& visit) const;
 
     std::uint64_t rays() const { return rays_; }
+
+    /// The walk between two steps, as bytes. Reading throws InputError where they are not those of such a
+    /// walk.
+    void write(ByteWriter& bytes) const;
+    void read(ByteReader& bytes);
 
   private:
     void radiate_constant();

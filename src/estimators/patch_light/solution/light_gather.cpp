@@ -122,7 +122,6 @@ LightGather::LightGather(const PatchTransport& coarse, const TermSums& walks, st
                       .terms = vertices_.terms(),
                       .groups = groups.count(),
                       .replicates = replicates});
-    rays_.resize(vertices_.count());
     sums_.resize(groups.count() * vertices_.terms());
     replicate_lx_.resize(vertices_.count() * replicates_);
     difference_lx_.resize(vertices_.count());
@@ -211,7 +210,7 @@ void LightGather::add_direct_light() {
 void LightGather::renew_source() {
     source_ = sums_;
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-        const auto scale = static_cast<float>(1. / rays_that_count(i) / static_cast<double>(replicates_));
+        const auto scale = static_cast<float>(1. / rays_that_count() / static_cast<double>(replicates_));
         for (std::size_t t = first_of(0, i); t < first_of(groups_.count(), i); ++t) {
             for (float& band : source_[t]) band *= scale;
         }
@@ -227,7 +226,7 @@ void LightGather::renew_source_shares() {
         const double mean_lx = illuminance_lx(i);
         if (!(mean_lx > 0)) continue;
         for (std::size_t r = i * replicates_; r < (i + 1) * replicates_; ++r)
-            source_shares_[r] = static_cast<float>(replicate_lx_[r] / rays_that_count(i) / mean_lx);
+            source_shares_[r] = static_cast<float>(replicate_lx_[r] / rays_that_count() / mean_lx);
     }
 }
 
@@ -237,19 +236,35 @@ void LightGather::forget_first_step() {
     std::ranges::fill(replicate_lx_, 0.);
 }
 
-double LightGather::rays_that_count(std::uint32_t vertex) const {
-    return static_cast<double>(rays_[vertex] > 1 ? rays_[vertex] - 1 : rays_[vertex]);
-}
-
 void LightGather::step() {
     if (steps_ == 1 || (steps_ >= kStepsToTrustSecond && std::has_single_bit(steps_))) renew_source();
     if (steps_ == 1) forget_first_step();
     const auto gather_part = [&](std::size_t first, std::size_t last) {
-        monitor_.require_more();
         gather(static_cast<std::uint32_t>(first), static_cast<std::uint32_t>(last));
     };
     parallel_for_parts(vertices_.count(), gather_part, kTogether);
     ++steps_;
+}
+
+void LightGather::write(ByteWriter& bytes) const {
+    bytes.add(steps_);
+    bytes.add_list(sums_);
+    bytes.add_list(source_);
+    bytes.add_list(source_shares_);
+    bytes.add_list(replicate_lx_);
+    bytes.add_list(difference_lx_);
+}
+
+void LightGather::read(ByteReader& bytes) {
+    steps_ = bytes.take<std::uint64_t>("the steps of the vertices");
+    bytes.take_same_size(sums_, "the light of the vertices");
+    // There is no source before the second step.
+    source_.resize(steps_ > 1 ? sums_.size() : 0);
+    source_shares_.resize(steps_ > 1 ? replicate_lx_.size() : 0);
+    bytes.take_same_size(source_, "the light that is gathered");
+    bytes.take_same_size(source_shares_, "the shares of replicates in it");
+    bytes.take_same_size(replicate_lx_, "the illuminances of replicates");
+    bytes.take_same_size(difference_lx_, "the differences from the patches");
 }
 
 void LightGather::gather(std::uint32_t first, std::uint32_t last) {
@@ -258,7 +273,6 @@ void LightGather::gather(std::uint32_t first, std::uint32_t last) {
         for (std::uint32_t r = 0; r < replicates_; ++r) {
             if (auto ray = start(vertex, r)) rays.push_back(*ray);
         }
-        ++rays_[vertex];
     }
     const std::size_t groups = groups_.count();
     std::vector<Rgb> light(2 * groups * rays.size());
@@ -429,11 +443,11 @@ double LightGather::illuminance_lx(std::uint32_t vertex) const {
     const auto first = replicate_lx_.begin() + static_cast<std::ptrdiff_t>(vertex * replicates_);
     double sum = 0;
     for (std::size_t r = 0; r < replicates_; ++r) sum += first[static_cast<std::ptrdiff_t>(r)];
-    return sum / rays_that_count(vertex) / static_cast<double>(replicates_);
+    return sum / rays_that_count() / static_cast<double>(replicates_);
 }
 
 double LightGather::bias_lx(std::uint32_t vertex) const {
-    return std::abs(difference_lx_[vertex]) / rays_that_count(vertex) / static_cast<double>(replicates_);
+    return std::abs(difference_lx_[vertex]) / rays_that_count() / static_cast<double>(replicates_);
 }
 
 auto LightGather::illuminances() const -> Illuminances {
@@ -443,7 +457,7 @@ auto LightGather::illuminances() const -> Illuminances {
     for (std::size_t r = 0; r < replicates_; ++r) {
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
             result.replicate_means.push_back(direct_lx_[i] +
-                                             replicate_lx_[i * replicates_ + r] / rays_that_count(i));
+                                             replicate_lx_[i * replicates_ + r] / rays_that_count());
         }
     }
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) result.bias_lx.push_back(bias_lx(i));
@@ -461,14 +475,14 @@ PatchSolution LightGather::solution() const {
     for (std::size_t g = 0; g < groups_.count(); ++g) {
         solution.terms[g].reserve(vertices_.terms());
         for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-            const double scale = 1 / rays_that_count(i) / static_cast<double>(replicates_);
+            const double scale = 1 / rays_that_count() / static_cast<double>(replicates_);
             for (std::uint32_t k = 0; k < vertices_.terms_of(i); ++k)
                 solution.terms[g].push_back(stored(to_rgb(sums_[first_of(g, i) + k]) * scale));
         }
     }
     solution.replicates.resize(replicates_);
     for (std::uint32_t i = 0; i < vertices_.count(); ++i) {
-        const double mean_lx = illuminance_lx(i), rays = rays_that_count(i);
+        const double mean_lx = illuminance_lx(i), rays = rays_that_count();
         for (std::size_t r = 0; r < replicates_; ++r) {
             const double share = mean_lx > 0 ? replicate_lx_[i * replicates_ + r] / rays / mean_lx : 1;
             solution.replicates[r].push_back(to_half(static_cast<float>(share)));

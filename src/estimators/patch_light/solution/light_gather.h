@@ -32,13 +32,16 @@ class LightGather {
                 const std::vector<bool>& is_lit, const patches::FinePatches& fine, const LightGroups& groups,
                 math::RandomKey key, const Monitor& monitor);
 
-    /// One ray from every vertex for each replicate. Throws Cancelled as the monitor says: some vertices have
-    /// one step more then.
+    /// One ray from every vertex for each replicate.
     void step();
-    /// Steps of all vertices.
     std::uint64_t steps() const { return steps_; }
     /// Steps before there is light that was gathered twice, in all replicates.
     static constexpr std::uint64_t kFirstSteps = 2;
+
+    /// What it has gathered between two steps, as bytes. Reading throws InputError where they are not those
+    /// of such a gathering.
+    void write(ByteWriter& bytes) const;
+    void read(ByteReader& bytes);
 
     /// The layout and the light; without light before kFirstSteps.
     PatchSolution solution() const;
@@ -64,7 +67,7 @@ class LightGather {
     void renew_source_shares();
     void forget_first_step();
     /// Rays of each replicate: without the first one, as soon as there are others.
-    double rays_that_count(std::uint32_t vertex) const;
+    double rays_that_count() const { return static_cast<double>(steps_ > 1 ? steps_ - 1 : steps_); }
     /// All replicates' next rays of some vertices.
     void gather(std::uint32_t first, std::uint32_t last);
     std::optional<GatheredRay> start(std::uint32_t vertex, std::uint32_t replicate) const;
@@ -105,7 +108,6 @@ class LightGather {
     std::vector<double> direct_lx_, area_m2_;  ///< per vertex
 
     std::uint64_t steps_ = 0;
-    std::vector<std::uint64_t> rays_;  ///< of each replicate, per vertex
     /// Sums of the vertices' terms over the rays of all replicates. Rays of the first step bring light that
     /// was gathered once, all others light that was gathered twice.
     std::vector<FloatRgb> sums_;
