@@ -60,6 +60,7 @@ struct Options {
     std::optional<std::uint64_t> paths;
     std::optional<int> bounces;
     std::optional<double> patch_m;
+    std::string by = "none";
     std::uint64_t seed = 1;
     int threads = 0;
 
@@ -88,10 +89,18 @@ struct Options {
                    "Limit the number of reflections (default: no limit, no bias)"},
             Option{"patch", &Options::patch_m, Range{1e-6, 1e9, "a length above 0 (from 1e-6 to 1e9 m)"}, "m",
                    "SIZE", "Longest edge of a patch [m] (default: about 10,000 patches)"},
+            Option{
+                "by", &Options::by, Names{division_names}, "", "NAME",
+                "State also what each light or group of lights gives (light), or each number of reflections "
+                "(bounce), with errors; default: none"},
             Option{"seed", &Options::seed, WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", "N",
                    "Seed of the random numbers: another seed gives an independent result"},
             Option{"threads", &Options::threads, WholeRange{0, 4096}, "", "N",
                    "Processor threads (default: all); the result does not depend on it"}};
+    }
+    static std::span<const std::string_view> division_names() {
+        static constexpr std::array<std::string_view, 3> names{"none", "light", "bounce"};
+        return names;
     }
     static std::span<const std::string_view> target_names() {
         static constexpr std::array<std::string_view, 2> names{"readings", "mean"};

@@ -81,7 +81,7 @@ void RunFlags::add_those_of_solutions(Command& command, std::optional<int>& degr
                          run::kDefaultDegree))
         .from_to(0, math::ZernikeBasis::kMostDegree)
         .value_name("N");
-    add_all_but({"method", "target", "bounces"}, command);
+    add_all_but({"method", "target", "bounces", "by"}, command);
     command.find("--error").description(
         "Stop when 95 % of the light falls on places with a 95 % interval within this share of their "
         "illuminance: 1% or 0.01");

@@ -4,9 +4,11 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/field.h"
 #include "estimators/patch_light/patch_options.h"
+#include "scene/light_groups.h"
 #include "stilb/options.h"
 
 namespace stilb::run {
@@ -22,6 +24,8 @@ struct RunOptions : api::Options {
     /// 6). Absent: 8 where readings lie side by side in large grids, else 32.
     std::optional<int> replicates;
     estimators::PatchMethodOptions patches;
+    /// States of the lamps for which readings are stated, too.
+    std::vector<LightScene> light_scenes;
 };
 
 /// Whether a run of readings ends as soon as all requirements are decided: unless an error is asked for, or a

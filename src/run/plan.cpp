@@ -118,6 +118,11 @@ std::uint64_t RunState::samples() const {
     return all;
 }
 
+std::size_t RunState::begun() const {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(tallies, [](const estimators::Tally& tally) { return tally.samples > 0; }));
+}
+
 void RunState::write(ByteWriter& bytes) const {
     plan.write(bytes);
     bytes.add_list(more_seeds);

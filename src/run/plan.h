@@ -73,6 +73,7 @@ struct RunState {
     std::vector<std::uint64_t> seeds() const;
     /// Of all replicates, as RunSummary.
     std::uint64_t samples() const;
+    std::size_t begun() const;  ///< strands with samples
 
     void write(ByteWriter& bytes) const;
     static RunState read(ByteReader& bytes);

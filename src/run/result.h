@@ -114,6 +114,14 @@ struct GlareView {
     std::vector<GlareSource> sources;
 };
 
+/// What a light, a group of lights, or the light of so many reflections gives.
+struct Share {
+    std::string name;
+    std::vector<statistics::Estimate> readings;  ///< in the order of the sensor's
+    statistics::GridSummary summary;
+    std::vector<double> replicate_means{};  ///< as those of the sensor
+};
+
 struct SensorResult {
     Sensor sensor;
     /// In the order of the sensor's measurands; one of a derived value, whose colour is unknown.
@@ -130,6 +138,7 @@ struct SensorResult {
     std::vector<double> replicate_means{};
     std::vector<RatedRequirement> requirements{};
     std::vector<GlareView> glare{};  ///< of each reading of a sensor that rates glare
+    std::vector<Share> shares{};     ///< they add up to the readings; of ratings of glare, none
 };
 
 /// The installed power over the task areas together (sensors::task_area_m2()).
@@ -151,11 +160,16 @@ struct RoomPower {
 
 struct RunResult : RunSummary {
     std::string scene_name;             ///< may be empty
+    /// Of all files of the scene, and of what is measured (io::add_hashes()); empty where nobody has set them.
+    std::string scene_hash, sensors_hash;
     std::uint64_t rays = 0;             ///< of the connections to receivers
     std::vector<SensorResult> sensors;  ///< in the order requested
     scene::InstalledPower power;
     std::optional<PowerDensity> power_density;
     std::vector<RoomPower> rooms;  ///< those that have lamps, where the power of some is known
+    /// For each state of the lamps (RunOptions::light_scenes) its name, sensors, glare and power; nothing
+    /// else.
+    std::vector<RunResult> light_scenes{};
 };
 
 /// On all requirements together: a fail where one fails; nothing where there are none.

@@ -75,9 +75,10 @@ RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, c
                   ProgressSink* progress = nullptr, const std::atomic<bool>* interrupt = nullptr,
                   RunState* state = nullptr);
 
-/// The result of the sums in `state`, without more samples, at the limits that the run had.
+/// The result of the sums in `state`, without more samples, at the limits that the run had. `dimmed`: with
+/// the lamps in this state, or null. Throws InputError where the run has not kept apart what this needs.
 RunResult result_of(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
-                    RunState& state, ProgressSink* progress = nullptr,
+                    RunState& state, const LightScene* dimmed = nullptr, ProgressSink* progress = nullptr,
                     const std::atomic<bool>* interrupt = nullptr);
 
 /// Makes the samples of a part of the run whose plan `state` has: as many as `options` asks of the whole run.

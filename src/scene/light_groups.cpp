@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "stilb/error.h"
 
@@ -45,9 +46,51 @@ std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors,
 }
 
 Scene relit(Scene scene, const LightGroups& groups, std::span<const Rgb> factors) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i)
-        scene.lights[i].source = lights::scaled(scene.lights[i].source, factors[groups.of_light[i]]);
+    std::vector<Rgb> of_lights;
+    for (const std::uint32_t group : groups.of_light) of_lights.push_back(factors[group]);
+    return relit(std::move(scene), of_lights);
+}
+
+Scene relit(Scene scene, std::span<const Rgb> of_lights) {
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        Light& light = scene.lights[i];
+        light.source = lights::scaled(light.source, of_lights[i]);
+        if (light.power_w) *light.power_w *= of_lights[i].luminance();
+    }
     return scene;
+}
+
+std::vector<std::string> names_for_dimming(const Scene& scene) {
+    std::vector<std::string> names;
+    for (const Light& light : scene.lights) {
+        for (const std::string& name : {light.name, group_of(light)}) {
+            if (std::ranges::find(names, name) == names.end()) names.push_back(name);
+        }
+    }
+    return names;
+}
+
+std::vector<Rgb> factors_of_lights(const LightScene& state, const Scene& scene) {
+    const std::vector<std::string> names = names_for_dimming(scene);
+    for (const LightFactor& given : state.factors) {
+        if (std::ranges::find(names, given.name) != names.end()) continue;
+        const std::string question =
+            did_you_mean(given.name, std::vector<std::string_view>(names.begin(), names.end()));
+        throw InputError(fmt::format("there is no light or group of lights \"{}\".{} Allowed: {}.",
+                                     given.name, question, fmt::join(names, ", ")));
+    }
+    std::vector<Rgb> factors;
+    for (const Light& light : scene.lights) {
+        Rgb factor = state.others;
+        for (const std::string& name : {group_of(light), light.name}) {
+            const auto given = std::ranges::find(state.factors, name, &LightFactor::name);
+            if (given != state.factors.end()) factor = given->factor;
+        }
+        const bool is_lamp = location_of(light) != LightLocation::infinity;
+        factors.push_back(state.maintenance && is_lamp ? factor * (*state.maintenance / light.maintenance)
+                                                       : factor);
+    }
+    return factors;
 }
 
 }  // namespace stilb::scene

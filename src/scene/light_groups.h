@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -40,10 +41,30 @@ std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors, std::sp
 
 /// The scene with the light of each group multiplied by its factor.
 Scene relit(Scene scene, const LightGroups& groups, std::span<const Rgb> factors);
+/// The same by a factor for each of Scene::lights. The power of a lamp follows the luminance of its light.
+Scene relit(Scene scene, std::span<const Rgb> of_lights);
+
+/// A state of the lamps in which the same scene is looked at, too.
+struct LightScene {
+    std::string name;
+    std::vector<LightFactor>
+        factors;                      ///< of lights or groups; that of a light comes before that of its group
+    Rgb others = Rgb::grey(1);        ///< of lights without one
+    std::optional<int> bounces = {};  ///< only light with so many reflections
+    std::optional<double> maintenance = {};  ///< of all lamps, in place of their own
+    /// Only these sensors are measured in it, and what is required of them counts for `--check`. Empty: all,
+    /// and it does not count.
+    std::vector<std::string> sensors = {};
+};
+/// Of all lights and groups, each once.
+std::vector<std::string> names_for_dimming(const Scene& scene);
+/// The factor of each of Scene::lights. Throws InputError where a name is that of no light and no group.
+std::vector<Rgb> factors_of_lights(const LightScene& state, const Scene& scene);
 
 }  // namespace stilb::scene
 
 namespace stilb {
 using scene::LightFactor;
 using scene::LightGroups;
+using scene::LightScene;
 }  // namespace stilb

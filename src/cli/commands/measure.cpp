@@ -20,6 +20,7 @@
 #include "io/import/rtrace.h"
 #include "io/import/scene_formats.h"
 #include "io/results/results_writer.h"
+#include "io/scene/overrides.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
@@ -113,6 +114,7 @@ Measurement prepared(const MeasureRequest& request) {
 /// Writes the files, and prints the table or what the request has in its place. Returns the exit code.
 int show(RunResult result, const Measurement& measurement, const MeasureRequest& request, Outputs& outputs) {
     put_first(measurement.file.warnings, result);
+    add_hashes(measurement.file, result);
     request.files.write(result, request.scene,
                         outputs);  // before all messages: the terminal may be closed by now
     if (!request.flags.run.quiet) print_warnings(result.warnings);
@@ -120,7 +122,7 @@ int show(RunResult result, const Measurement& measurement, const MeasureRequest&
         fmt::print("{}", io::to_irradiance_lines(result));
     } else if (std::ranges::none_of(request.files.json_files(), io::is_standard_output))
         fmt::print("{}", to_table(result) + shortfall_text(result, ""));
-    return outputs.conclude(request.flags.exit_code_of(result));
+    return outputs.conclude(request.flags.exit_code_of(result, measurement.options));
 }
 
 /// "3/16" as the third part, which has number 2.
@@ -318,8 +320,17 @@ int show_from(const MeasureRequest& request) {
             "{} has no effect with --from, which adds no samples. Go on with the run: stilb resume {}.",
             given.front(), request.from));
     }
-    return show_stored(io::read_run_file(request.from), request.from,
-                       {request.files, request.flags.checks, request.flags.run.quiet});
+    std::vector<std::string> overrides = request.flags.overrides;
+    ShowFlags flags{request.files, request.flags.checks, request.flags.run.quiet, {}};
+    flags.dimmed.name = "dimmed";
+    flags.dimmed.factors = io::take_light_factors(overrides);
+    if (!overrides.empty()) {
+        throw InputError(
+            fmt::format("--set {}: with --from, --set takes factors of lights and groups, such as "
+                        "panel=0.4: all else is that of the run.",
+                        overrides.front()));
+    }
+    return show_stored(io::read_run_file(request.from), request.from, flags);
 }
 
 }  // namespace
@@ -340,9 +351,12 @@ int show_stored(const io::StoredRun& stored, const std::string& name, const Show
     const auto& [file, sensors, options] = measurement;
     require_same_run(stored.origin, io::traits_of(file, sensors, options), name);
     auto state = io::read_sums<run::RunState>(stored, kReadingSums, name);
-    RunResult result = run::result_of(file.scene, sensors, options, state, nullptr, &watch_for_interrupt());
+    RunResult result = run::result_of(file.scene, sensors, options, state,
+                                      flags.dimmed.factors.empty() ? nullptr : &flags.dimmed, nullptr,
+                                      &watch_for_interrupt());
     result.elapsed_s = stored.origin.elapsed_s;
     result.stop_reason = io::stop_reason_of(stored.origin).value_or(StopReason::interrupted);
+    if (result.stop_reason == StopReason::interrupted) result.converged = false;
     Outputs outputs;
     return show(std::move(result), measurement, request, outputs);
 }

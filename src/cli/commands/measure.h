@@ -35,6 +35,7 @@ struct ReadingFiles {
 struct ShowFlags {
     ReadingFiles files;
     bool checks = false, quiet = false;
+    LightScene dimmed = {};  ///< by its factors, if there are any
 };
 /// Shows the result of the sums of a state file, without more samples. `name`: of the file, which messages
 /// name. Returns the exit code.

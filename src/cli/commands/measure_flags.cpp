@@ -104,11 +104,16 @@ RunOptions MeasureFlags::options_for(std::span<const Sensor> measured, const Run
     return with_reserve(run.over(of_file), kFinishing_s * static_cast<double>(readings));
 }
 
-int MeasureFlags::exit_code_of(const RunResult& result) const {
+int MeasureFlags::exit_code_of(const RunResult& result, const RunOptions& options) const {
     if (!checks) return result.converged ? kExitDone : kExitStoppedEarly;
-    const Verdict verdict = run::verdict_of(result).value_or(Verdict::undecided);
-    if (verdict == Verdict::fail) return kExitCheckFailed;
-    return verdict == Verdict::pass ? kExitDone : kExitStoppedEarly;
+    std::vector<Verdict> verdicts{run::verdict_of(result).value_or(Verdict::undecided)};
+    for (std::size_t s = 0; s < result.light_scenes.size(); ++s) {
+        if (options.light_scenes[s].sensors.empty()) continue;
+        if (const auto own = run::verdict_of(result.light_scenes[s])) verdicts.push_back(*own);
+    }
+    if (std::ranges::find(verdicts, Verdict::fail) != verdicts.end()) return kExitCheckFailed;
+    const bool pass = std::ranges::all_of(verdicts, [](Verdict verdict) { return verdict == Verdict::pass; });
+    return pass ? kExitDone : kExitStoppedEarly;
 }
 
 }  // namespace stilb::cli

@@ -358,7 +358,7 @@ void add_render(CommandLine& line) {
         "Take this value instead of the scene file's (materials.wall.reflectance=0.4); with --from also a "
         "factor for the light of a group or of a lamp (lamp=0.4, lamp=[1, 0.8, 0.5])");
     request->state.add_to(command);
-    request->flags.add_to(command, {"target"});
+    request->flags.add_to(command, {"target", "by"});
     command.run([request, &line] {
         request->command = line.text();
         return run_render(*request, line);

@@ -140,7 +140,8 @@ class Reporting {
         return report_.readings ? report_.readings->stop_reason : StopReason::paths_done;
     }
     int exit_code() const {
-        const int of_readings = report_.readings ? request_.flags.exit_code_of(*report_.readings) : kExitDone;
+        const int of_readings =
+            report_.readings ? request_.flags.exit_code_of(*report_.readings, report_.options) : kExitDone;
         return of_readings == kExitDone && lacks_views_ ? kExitStoppedEarly : of_readings;
     }
 

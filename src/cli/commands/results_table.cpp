@@ -113,21 +113,46 @@ std::string glare_text(const SensorResult& result) {
     return text.empty() ? text : text + '\n';
 }
 
+/// What each share gives, its mean where there are several readings: "    panel: 210.3 +- 0.4 lx (84 %),
+/// ...".
+std::string shares_text(const SensorResult& result) {
+    std::string text;
+    for (const run::Share& share : result.shares) {
+        const double part = share.summary.mean.value / result.summary.mean.value;
+        text += fmt::format("{} {} {}{}", text.empty() ? "    of this:" : ",", share.name,
+                            io::with_unit(share.summary.mean, result.sensor),
+                            std::isfinite(part) ? fmt::format(" ({})", io::percent(part)) : "");
+    }
+    return text.empty() ? text : text + '\n';
+}
+
 std::string sensor_table(const SensorResult& result) {
     const Sensor& sensor = result.sensor;
     const std::size_t readings = sensor.size();
     if (readings == 1 || sensor.derived())
-        return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0)) + glare_text(result) +
-               requirements_text(result);
+        return fmt::format("{:12}  {}", sensor.name, reading_text(result, sensor, 0)) + shares_text(result) +
+               glare_text(result) + requirements_text(result);
     std::string text = fmt::format("{:12}  {}", sensor.name, io::size_text(sensor));
     text += fmt::format("; 95 % of the readings within {}\n", io::percent(result.attained_error));
-    text += summary_text(result.summary, sensor) + glare_text(result) + requirements_text(result);
+    text += summary_text(result.summary, sensor) + shares_text(result) + glare_text(result) +
+            requirements_text(result);
     if (const auto count = sensor.count()) {
         const bool fits = (*count)[0] <= kMostColumns && (*count)[1] <= kMostRows;
         return fits ? text + grid_values(result, *count) : text;
     }
     if (readings > kMostReadings || std::holds_alternative<Area>(sensor.kind)) return text;
     for (std::size_t j = 0; j < readings; ++j) text += "    " + reading_text(result, sensor, j);
+    return text;
+}
+
+/// The sensors in a state of the lamps, its requirements and power.
+std::string light_scene_table(const RunResult& lit) {
+    std::string text = fmt::format("\nLight scene {}\n", lit.scene_name);
+    for (const SensorResult& sensor : lit.sensors) text += sensor_table(sensor);
+    if (const std::string verdicts = io::verdicts_text(lit); !verdicts.empty())
+        text += fmt::format("    Requirements: {}\n", verdicts);
+    if (const std::string power = io::installed_power_text(lit); !power.empty())
+        text += fmt::format("    Power: {}\n", power);
     return text;
 }
 
@@ -169,6 +194,7 @@ std::string ending_with_error(const RunResult& result, std::string_view samples)
 std::string to_table(const RunResult& result) {
     std::string text = title_of(result) + ", with 95 % intervals\n\n";
     for (const SensorResult& sensor : result.sensors) text += sensor_table(sensor);
+    for (const RunResult& lit : result.light_scenes) text += light_scene_table(lit);
     text += '\n' + end_of_table(result) + io::detail_text(result.levels_of_detail);
     return result.patches ? text + io::patch_text(*result.patches) : text;
 }

@@ -7,6 +7,7 @@
 #include <array>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -94,6 +95,7 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     Json json{
         {"name", sensor.name}, {"type", sensor.type()}, {"quantity", quantity.name}, {"unit", quantity.unit}};
     if (const auto count = sensor.count()) json["count"] = *count;
+    if (const auto* grid = std::get_if<Grid>(&sensor.kind)) json.update(raster_json(*grid));
     json["attained_error"] = result.attained_error;
     if (result.patch_error) json["patch_error"] = *result.patch_error;
     if (const auto* area = std::get_if<Area>(&sensor.kind)) {
@@ -107,7 +109,16 @@ Json sensor_json(const SensorResult& result, const Sensor& sensor) {
     for (const RatedRequirement& rated : result.requirements)
         json["requirements"].push_back(requirement_json(rated, result.summary));
     for (const run::GlareView& view : result.glare) json["glare"].push_back(glare_json(view));
+    for (const run::Share& share : result.shares)
+        json["shares"].push_back(
+            {{"name", share.name}, {"values", nullptr}, {"summary", summary_json(share.summary, sensor)}});
     return json;
+}
+
+Json sensors_json(const RunResult& result) {
+    Json list = Json::array();
+    for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
+    return list;
 }
 
 Json room_power_json(const run::RoomPower& room) {
@@ -128,6 +139,15 @@ Json power_json(const RunResult& result) {
     json["w_m2"] = density->w_m2;
     json["w_m2_per_100_lx"] = density->w_m2_per_100_lx.value;
     json["w_m2_per_100_lx_interval"] = interval_json(density->w_m2_per_100_lx);
+    return json;
+}
+
+/// A state of the lamps.
+Json light_scene_json(const RunResult& lit) {
+    Json json = Json::object();
+    if (const auto verdict = run::verdict_of(lit)) json["verdict"] = run::name_of(*verdict);
+    if (lit.power.has_lamps()) json["power"] = power_json(lit);
+    json["sensors"] = sensors_json(lit);
     return json;
 }
 
@@ -219,52 +239,75 @@ void add_location(const SensorResult& result, std::size_t j, ObjectText& object)
     for (const Location::Angle& angle : location.angles) object.add(angle.name, angle.value_deg);
 }
 
-void add_replicates(const SensorResult& result, std::size_t j, ObjectText& object) {
+/// `means`: replicates x `readings`.
+void add_replicates(std::span<const double> means, std::size_t readings, std::size_t j, ObjectText& object) {
     std::vector<double> values;
-    for (std::size_t i = j; i < result.replicate_means.size(); i += result.readings.size())
-        values.push_back(result.replicate_means[i]);
+    for (std::size_t i = j; i < means.size(); i += readings) values.push_back(means[i]);
     object.add("replicates", values);
 }
 
-void append_reading(const SensorResult& result, std::size_t j, ReplicateValues replicates,
+/// The readings of a sensor, or of one of its shares.
+struct ListedReadings {
+    const SensorResult& sensor;
+    const run::Share* share = nullptr;
+};
+
+/// In the order of the document.
+std::vector<ListedReadings> listed_readings(const RunResult& result) {
+    std::vector<ListedReadings> all;
+    for (const SensorResult& sensor : result.sensors) {
+        all.push_back({sensor});
+        for (const run::Share& share : sensor.shares) all.push_back({sensor, &share});
+    }
+    for (const RunResult& lit : result.light_scenes)
+        std::ranges::move(listed_readings(lit), std::back_inserter(all));
+    return all;
+}
+
+void append_reading(const ListedReadings& listed, std::size_t j, ReplicateValues replicates,
                     std::string& text) {
+    const auto& [result, share] = listed;
     ObjectText object(text);
-    if (!result.sensor.derived()) add_location(result, j, object);
-    const Reading& reading = result.readings[j];
-    object.add("value", reading.estimate.value);
-    object.add("standard_error", reading.estimate.standard_error);
-    object.add("interval", std::array{reading.estimate.lower, reading.estimate.upper});
-    if (reading.patch_error) object.add("patch_error", *reading.patch_error);
-    if (!result.sensor.derived()) object.add("rgb", reading.rgb.band);
-    if (replicates == ReplicateValues::written) add_replicates(result, j, object);
+    if (!result.sensor.derived() && !share) add_location(result, j, object);
+    const statistics::Estimate& estimate = share ? share->readings[j] : result.readings[j].estimate;
+    object.add("value", estimate.value);
+    object.add("standard_error", estimate.standard_error);
+    object.add("interval", std::array{estimate.lower, estimate.upper});
+    if (const Reading& reading = result.readings[j]; !share) {
+        if (reading.patch_error) object.add("patch_error", *reading.patch_error);
+        if (!result.sensor.derived()) object.add("rgb", reading.rgb.band);
+    }
+    if (replicates == ReplicateValues::written)
+        add_replicates(share ? share->replicate_means : result.replicate_means, result.readings.size(), j,
+                       object);
 }
 
 /// Appends the readings of a sensor as JSON, in their order, a line for each; in parts, which are made in
 /// parallel.
-void append_readings(const SensorResult& result, ReplicateValues replicates,
+void append_readings(const ListedReadings& listed, ReplicateValues replicates,
                      std::vector<std::string>& parts) {
     constexpr std::size_t kPart = 1024;
-    const std::size_t count = result.readings.size(), before = parts.size();
+    const std::size_t count = listed.sensor.readings.size(), before = parts.size();
     parts.resize(before + (count + kPart - 1) / kPart);
     parallel_for(parts.size() - before, [&](std::size_t p) {
         std::string& part = parts[before + p];
         for (std::size_t j = p * kPart; j < std::min(count, (p + 1) * kPart); ++j) {
             part += j > 0 ? ",\n    " : "\n    ";
-            append_reading(result, j, replicates, part);
+            append_reading(listed, j, replicates, part);
         }
     });
 }
 
 /// `document` with an array of the readings in place of each `"values": null`.
-std::vector<std::string> with_readings(std::string_view document, std::span<const SensorResult> sensors,
+std::vector<std::string> with_readings(std::string_view document, std::span<const ListedReadings> all,
                                        ReplicateValues replicates) {
     constexpr std::string_view kKey = "\"values\": ", kNull = "null";
     std::vector<std::string> parts;
-    for (const SensorResult& sensor : sensors) {
-        // It occurs for each sensor only, because quotation marks within texts are escaped.
+    for (const ListedReadings& listed : all) {
+        // It occurs for each of these only, because quotation marks within texts are escaped.
         const std::size_t end = document.find(kKey) + kKey.size();
         parts.push_back(fmt::format("{}[", document.substr(0, end)));
-        append_readings(sensor, replicates, parts);
+        append_readings(listed, replicates, parts);
         parts.emplace_back("\n   ]");
         document.remove_prefix(end + kNull.size());
     }
@@ -281,6 +324,8 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
               {"format", kFormat},
               {"scene", scene},
               {"scene_name", result.scene_name},
+              {"scene_hash", result.scene_hash.empty() ? Json() : Json(result.scene_hash)},
+              {"sensors_hash", result.sensors_hash.empty() ? Json() : Json(result.sensors_hash)},
               {"method", result.method},
               {"technique", result.technique},
               {"sample", technique.sample},
@@ -308,11 +353,10 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
                                             {"error_m", level.error_m},
                                             {"allowed_m", level.allowed_m}});
     }
-    Json list = Json::array();
-    for (const SensorResult& sensor : result.sensors) list.push_back(sensor_json(sensor, sensor.sensor));
-    json["sensors"] = std::move(list);
-    return with_readings(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n", result.sensors,
-                         replicates);
+    json["sensors"] = sensors_json(result);
+    for (const RunResult& lit : result.light_scenes) json["scenes"][lit.scene_name] = light_scene_json(lit);
+    return with_readings(json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n",
+                         listed_readings(result), replicates);
 }
 
 std::string to_json(const RunResult& result, const std::string& scene) {
@@ -368,7 +412,8 @@ std::string in_column(std::string_view text) {
     return name;
 }
 
-void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings, const Sensor& sensor) {
+void add_readings(ReadingColumns& columns, const SensorResult& result, const Sensor& sensor) {
+    const std::vector<Reading>& readings = result.readings;
     const Quantity quantity = sensor.quantity();
     const std::string unit = quantity.unit.empty() ? "" : fmt::format("_{}", in_column(quantity.unit));
     const auto estimate = [&](std::size_t j) -> const statistics::Estimate& { return readings[j].estimate; };
@@ -377,6 +422,13 @@ void add_readings(ReadingColumns& columns, const std::vector<Reading>& readings,
     columns.add("interval_low" + unit, [&](std::size_t j) { return estimate(j).lower; });
     columns.add("interval_high" + unit, [&](std::size_t j) { return estimate(j).upper; });
     if (sensor.derived()) return;
+    for (const run::Share& share : result.shares) {
+        const std::string of = "_of_" + in_column(share.name);
+        columns.add(in_column(quantity.name) + unit + of,
+                    [&](std::size_t j) { return share.readings[j].value; });
+        columns.add("standard_error" + unit + of,
+                    [&](std::size_t j) { return share.readings[j].standard_error; });
+    }
     constexpr std::array<const char*, kBands> bands{"red", "green", "blue"};
     for (std::size_t b = 0; b < kBands; ++b)
         columns.add(bands[b] + unit, [&](std::size_t j) { return readings[j].rgb[b]; });
@@ -391,7 +443,7 @@ void write_sensor(const SensorResult& result, const Sensor& sensor, const std::f
             return sub_point(result, sensor, j).value_or(Vec3{none, none, none});
         });
     }
-    add_readings(columns, result.readings, sensor);
+    add_readings(columns, result, sensor);
     write_csv(columns.columns(), path);
 }
 
@@ -418,6 +470,7 @@ void write_results_csv(const RunResult& result, const std::filesystem::path& dir
     create_folder(directory);
     for (const SensorResult& sensor : result.sensors)
         write_sensor(sensor, sensor.sensor, csv_path(directory, sensor.sensor));
+    for (const RunResult& lit : result.light_scenes) write_results_csv(lit, directory / lit.scene_name);
 }
 
 }  // namespace stilb::io

@@ -14,6 +14,7 @@
 #include "io/text/table.h"
 #include "io/text/text.h"
 #include "run/pictures/picture_sums.h"
+#include "run/readings/division.h"
 #include "run/solve.h"
 #include "stilb/error.h"
 
@@ -88,6 +89,14 @@ std::string fingerprint_of(const estimators::PatchMethodOptions& options) {
     return print.text();
 }
 
+/// Of what is kept apart: factors alone may change.
+std::string fingerprint_of(const run::LightDivision& division) {
+    Fingerprint print;
+    for (const std::uint32_t group : division.channels()->groups.of_light) print.add(group);
+    print.add(division.channels()->orders);
+    return print.text();
+}
+
 /// Whether an option says when a run ends, or how fast it is, and nothing of its samples.
 bool is_limit(std::string_view key) {
     constexpr std::array<std::string_view, 4> limits{"error", "time", "paths", "threads"};
@@ -105,6 +114,7 @@ std::string difference(const RunTrait* stored, const RunTrait* asked) {
     if (name == "version")
         return fmt::format("it was made by Stilb {}, and this is Stilb {}, whose samples may differ",
                            stored->value, asked->value);
+    if (name == "light scenes") return "the light scenes tell other lights apart";
     if (name == "patches") return "its options of patches and first shot are others";
     return fmt::format("its {} is {}, here it is {}", name, stored ? stored->value : "not given",
                        asked ? asked->value : "not given");
@@ -229,6 +239,8 @@ RunTraits traits_of(const SceneFile& scene, std::span<const Sensor> sensors, con
     });
     if (options.replicates)
         traits.push_back({"number of replicates", fmt::format("{}", *options.replicates)});
+    if (!options.light_scenes.empty())
+        traits.push_back({"light scenes", fingerprint_of(run::LightDivision(scene.scene, options))});
     traits.push_back({"patches", fingerprint_of(options.patches)});
     return traits;
 }
@@ -242,6 +254,13 @@ std::optional<StopReason> stop_reason_of(const RunOrigin& origin) {
 bool is_finished(const RunOrigin& origin) {
     const std::optional<StopReason> reason = stop_reason_of(origin);
     return reason && *reason != StopReason::time_over && *reason != StopReason::interrupted;
+}
+
+void add_hashes(const SceneFile& scene, RunResult& result) {
+    std::vector<Sensor> sensors;
+    for (const SensorResult& sensor : result.sensors) sensors.push_back(sensor.sensor);
+    result.sensors_hash = fingerprint_of(sensors);
+    if (!scene.sources.empty()) result.scene_hash = content_hash(scene.sources);
 }
 
 void require_same_run(const RunOrigin& stored, const RunTraits& traits, const std::string& name) {

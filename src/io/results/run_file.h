@@ -30,6 +30,9 @@ using RunTraits = std::vector<RunTrait>;
 /// Those of runs of readings and pictures of a scene. Limits, threads and requirements are none of them.
 RunTraits traits_of(const SceneFile& scene, std::span<const Sensor> sensors, const RunOptions& options);
 
+/// Sets the hashes of a result, by which two results are known to be of the same scene and sensors.
+void add_hashes(const SceneFile& scene, RunResult& result);
+
 /// What a state file says of its run.
 struct RunOrigin {
     std::string version;                 ///< of Stilb

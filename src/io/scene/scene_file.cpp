@@ -25,6 +25,8 @@ namespace stilb::io {
 
 namespace {
 
+/// More reflections are not kept apart: each costs memory.
+constexpr int kMostBouncesApart = 20;
 constexpr Range kMaintenance{1e-3, 1, "a factor above 0 (from 0.001 to 1)"};
 // The value of an option of [run], by its limits.
 
@@ -143,6 +145,41 @@ RunOptions read_run(TomlTable section) {
     return run;
 }
 
+namespace {
+
+/// [scenes.NAME]: factors of lights and groups beside the keys of the state itself.
+LightScene read_light_scene(const std::string& name, const TomlTable& table, const SceneFile& file) {
+    const std::vector<std::string> names = scene::names_for_dimming(file.scene);
+    const std::vector<std::string_view> lights(names.begin(), names.end());
+    LightScene state;
+    state.name = name;
+    for (const auto& [key, item] : table.items()) {
+        if (key == "others") {
+            state.others = item.rgb(kDimming);
+        } else if (key == "bounces") {
+            state.bounces = static_cast<int>(item.integer(0, kMostBouncesApart));
+        } else if (key == "maintenance") {
+            state.maintenance = item.number(kMaintenance);
+        } else if (key == "sensors") {
+            for (const TomlItem& sensor : item.elements()) {
+                if (!sensors::find_sensor(file.sensors, sensor.text()))
+                    sensor.fail(fmt::format("there is no sensor {}.", in_quotes(sensor.text())));
+                state.sensors.push_back(sensor.text());
+            }
+        } else if (std::ranges::find(names, key) != names.end()) {
+            state.factors.push_back({key, item.rgb(kDimming)});
+        } else {
+            item.fail(
+                fmt::format("there is no light or group of lights {}.{} Or: others, bounces, maintenance, "
+                            "sensors.",
+                            in_quotes(key), suggestion(key, lights)));
+        }
+    }
+    return state;
+}
+
+}  // namespace
+
 double read_maintenance(const TomlTable& table, double otherwise) {
     const auto item = table.find("maintenance");
     return item ? item->number(kMaintenance) : otherwise;
@@ -165,7 +202,7 @@ SceneFile read_scene(std::string_view toml, const std::string& name, const std::
 SceneFile read_scene(const TomlMembers& members, const std::string& name,
                      const std::filesystem::path& directory, SceneFile file, const Monitor& monitor) {
     TomlTable root(members, "", name, 0);
-    root.expect_keys({"scene", "defaults", "materials", "objects", "lights", "sensors", "run"});
+    root.expect_keys({"scene", "defaults", "materials", "objects", "lights", "sensors", "scenes", "run"});
     const TomlMembers nothing;
     const TomlTable none(nothing, "", name, 0);
     TomlTable all_defaults = section_of(root, "defaults", none);
@@ -201,6 +238,8 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     if (file.scene.lights.empty())
         file.warnings.emplace_back(WarningKind::no_light, InputError(std::string(kNoLight), {name}).what());
     read_sensors(sensors, defaults("sensors", sensor_types()), file);
+    for (const auto& [state, table] : named_tables(section_of(root, "scenes", none)))
+        file.run.light_scenes.push_back(read_light_scene(state, table, file));
     return file;
 }
 

@@ -54,7 +54,8 @@ std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunO
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
                    const GlareViews& glare, const PossibleLight& possible, std::size_t readings,
-                   RunState& state, const RunOptions& options, std::uint64_t least_samples, RunPart part)
+                   std::size_t channels, RunState& state, const RunOptions& options,
+                   std::uint64_t least_samples, RunPart part)
     : estimator_(estimator),
       sensors_(sensors),
       glare_(glare),
@@ -62,6 +63,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
       expected_largest_(estimator.expected_largest()),
       targets_means_(is_error_of_means(options)),
       part_(part),
+      channels_(channels),
       packets_(estimator.packets()),
       state_(state) {
     const bool has_packets = !packets_.empty();
@@ -72,7 +74,8 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
     }
     if (is_part() && !plan().is_complete())
         throw std::invalid_argument("the plan of a part of a run is not complete");
-    if (state_.tallies.empty()) state_.tallies.assign(plan().units(), estimators::Tally(readings, packets()));
+    if (state_.tallies.empty())
+        state_.tallies.assign(plan().units(), estimators::Tally(readings, packets(), channels_));
     require_own_sums(readings);
     samples_ = std::numeric_limits<std::uint64_t>::max();
     for (std::size_t strand = 0; strand < plan().units(); ++strand) {
@@ -86,6 +89,7 @@ std::size_t Campaign::packets() const { return *std::ranges::max_element(packets
 void Campaign::require_own_sums(std::size_t readings) const {
     const auto is_own = [&](const estimators::Tally& tally) {
         return tally.sum.size() == readings && tally.taken.size() == packets() &&
+               tally.parts.size() == readings * channels_ &&
                (tally.lacking.empty() || tally.lacking.size() == readings);
     };
     const bool are_own_paces =
@@ -105,7 +109,7 @@ void Campaign::find_begun() {
 void Campaign::make_plan(std::size_t readings, std::uint64_t least_samples) {
     RunPlan& plan = state_.plan;
     plan.technique = estimator_.technique();
-    plan.strands = strands_of_replicate(plan.replicates, readings);
+    plan.strands = strands_of_replicate(plan.replicates, readings * (1 + channels_));
     plan.unit = plan.strands * estimator_.batch_granularity();
     plan.first_check = plan.in_units(std::max(estimator_.first_check(), samples_for(least_samples)));
     const double per_batch =
@@ -164,9 +168,22 @@ std::uint64_t Campaign::comparisons_of(std::size_t replicate) const {
     return all;
 }
 
-Rgb Campaign::mean(std::size_t replicate, std::size_t reading) const {
+Rgb Campaign::known(std::size_t reading, ChannelWeights weights) const {
+    if (weights.empty()) return estimator_.known_part()[reading];
+    const std::size_t readings = estimator_.known_part().size();
     Rgb all;
-    for (const estimators::Tally& strand : strands_of(replicate)) all += strand.sum[reading];
+    for (std::size_t c = 0; c < weights.size(); ++c)
+        all += weights[c] * estimator_.known_parts()[c * readings + reading];
+    return all;
+}
+
+Rgb Campaign::mean(std::size_t replicate, std::size_t reading, ChannelWeights weights) const {
+    Rgb all;
+    for (const estimators::Tally& strand : strands_of(replicate)) {
+        if (weights.empty()) all += strand.sum[reading];
+        for (std::size_t c = 0; c < weights.size(); ++c)
+            all += weights[c] * strand.parts[c * strand.sum.size() + reading];
+    }
     return all * (1 / static_cast<double>(taken(replicate, packets_[reading])));
 }
 
@@ -179,7 +196,7 @@ void Campaign::sample_strand(std::size_t strand, std::uint64_t count) {
     const math::RandomKey key = key_of_seed(plan().seed).derived(RunStream::readings).derived(replicate);
     estimators::Batch batch{{key}, first, count, {}};
     if (!plan().paces.empty()) batch.paces = plan().paces[replicate];
-    estimators::Tally more(tally.sum.size(), tally.taken.size());
+    estimators::Tally more(tally.sum.size(), tally.taken.size(), channels_);
     estimator_.run_batch(batch, more);
     more.count(batch);
     tally += more;
@@ -270,13 +287,16 @@ void Campaign::require_valid() const {
     require_mostly_finite(invalid, all);
 }
 
-Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first, double confidence) const {
+Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first, double confidence,
+                                        ChannelWeights weights) const {
     const std::size_t count = sensor.size();
     const auto known_part = estimator_.known_part().subspan(first, count);
     Estimates all;
     if (const auto columns_and_rows = sensor.count(); plan().pools_errors && columns_and_rows)
         all.columns = static_cast<std::size_t>((*columns_and_rows)[0]);
-    all.replicate_means = replicate_means(first, count);
+    all.replicate_means = replicate_means(first, count, weights);
+    double largest_weight = weights.empty() ? 1 : 0;
+    for (const Rgb& weight : weights) largest_weight = std::max(largest_weight, weight.max());
     all.largest = largest(first, count);
     for (std::size_t j = 0; j < count; ++j) {
         statistics::LargestContributions known = all.largest[j];
@@ -291,7 +311,7 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
         if (all.largest[j].overall > 0 || known_part[j].luminance() > 0)
             rare_light = std::max(
                 rare_light, possible_.missed(sensor.measurand(j), largest_reflected(first + j), samples));
-        all.rare_light.push_back(rare_light);
+        all.rare_light.push_back(largest_weight * rare_light);
     }
     all.readings =
         statistics::estimate_readings({all.replicate_means, count, all.columns}, confidence, all.rare_light);
@@ -312,12 +332,13 @@ double Campaign::largest_reflected(std::size_t reading) const {
     return largest;
 }
 
-std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t count) const {
+std::vector<double> Campaign::replicate_means(std::size_t first, std::size_t count,
+                                              ChannelWeights weights) const {
     std::vector<double> means(begun_.size() * count);
-    const auto known = estimator_.known_part();
     parallel_for(begun_.size(), [&](std::size_t r) {
         for (std::size_t j = 0; j < count; ++j)
-            means[r * count + j] = known[first + j].luminance() + mean(begun_[r], first + j).luminance();
+            means[r * count + j] =
+                known(first + j, weights).luminance() + mean(begun_[r], first + j, weights).luminance();
     });
     return means;
 }
@@ -337,15 +358,14 @@ std::vector<double> Campaign::lacking(std::size_t first, std::size_t count) cons
     return differences;
 }
 
-std::vector<Rgb> Campaign::rgb(std::size_t first, std::size_t count) const {
+std::vector<Rgb> Campaign::rgb(std::size_t first, std::size_t count, ChannelWeights weights) const {
     std::vector<Rgb> all(count);
-    const auto known = estimator_.known_part();
     parallel_for_parts(count, [&](std::size_t begin, std::size_t end) {
         for (const std::size_t replicate : begun_) {
-            for (std::size_t j = begin; j < end; ++j) all[j] += mean(replicate, first + j);
+            for (std::size_t j = begin; j < end; ++j) all[j] += mean(replicate, first + j, weights);
         }
         for (std::size_t j = begin; j < end; ++j)
-            all[j] = known[first + j] + all[j] * (1 / static_cast<double>(begun_.size()));
+            all[j] = known(first + j, weights) + all[j] * (1 / static_cast<double>(begun_.size()));
     });
     return all;
 }

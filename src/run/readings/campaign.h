@@ -26,6 +26,9 @@ inline constexpr std::size_t kGuessBytes = 150'000'000;
 
 class GlareViews;
 
+/// A factor for the light of each channel.
+using ChannelWeights = std::span<const Rgb>;
+
 /// The sums of all replicates, and their progress. Keeps references to the estimator, to the sensors, which
 /// may have no readings, to what their eyes see, to the light that may be missed, and to the state, which
 /// holds all that is done at any time.
@@ -36,8 +39,8 @@ class Campaign final : public Work {
     /// estimate. Throws std::invalid_argument where the state is of other readings, or a part has no complete
     /// plan.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, const GlareViews& glare,
-             const PossibleLight& possible, std::size_t readings, RunState& state, const RunOptions& options,
-             std::uint64_t least_samples, RunPart part = {});
+             const PossibleLight& possible, std::size_t readings, std::size_t channels, RunState& state,
+             const RunOptions& options, std::uint64_t least_samples, RunPart part = {});
 
     std::uint64_t samples() const override { return samples_; }
     std::uint64_t samples_in_all() const override;
@@ -83,8 +86,11 @@ class Campaign final : public Work {
         std::vector<double> rare_light;
         std::optional<statistics::BiasBounds> bias;  ///< of methods on patches; the intervals contain it
     };
-    Estimates estimates(const Sensor& sensor, std::size_t first, double confidence) const;
-    std::vector<Rgb> rgb(std::size_t first, std::size_t count) const;
+    /// `weights`: of the channels in the readings; without any, all that light brings. What is lacking, and
+    /// the light of lamps that no sample has found, counts by the largest weight.
+    Estimates estimates(const Sensor& sensor, std::size_t first, double confidence,
+                        ChannelWeights weights = {}) const;
+    std::vector<Rgb> rgb(std::size_t first, std::size_t count, ChannelWeights weights = {}) const;
 
   private:
     std::span<const estimators::Tally> strands_of(std::size_t replicate) const {
@@ -109,10 +115,13 @@ class Campaign final : public Work {
         for (const std::size_t replicate : begun_) std::ranges::for_each(strands_of(replicate), visit);
     }
     void set_paces();
-    Rgb mean(std::size_t replicate, std::size_t reading) const;
+    /// What needs no samples.
+    Rgb known(std::size_t reading, ChannelWeights weights) const;
+    Rgb mean(std::size_t replicate, std::size_t reading, ChannelWeights weights) const;
     /// The largest contribution to a sample of light that does not come straight from a lamp.
     double largest_reflected(std::size_t reading) const;
-    std::vector<double> replicate_means(std::size_t first, std::size_t count) const;
+    std::vector<double> replicate_means(std::size_t first, std::size_t count,
+                                        ChannelWeights weights = {}) const;
     std::vector<statistics::LargestContributions> largest(std::size_t first, std::size_t count) const;
     /// Replicates x readings: by how much path tracing finds more light, luminance-weighted.
     std::vector<double> lacking(std::size_t first, std::size_t count) const;
@@ -124,6 +133,7 @@ class Campaign final : public Work {
     std::vector<double> expected_largest_;
     bool targets_means_;
     RunPart part_;
+    std::size_t channels_;
     std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
     RunState& state_;
     std::vector<std::size_t> begun_;  ///< the replicates that have samples

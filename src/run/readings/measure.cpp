@@ -11,6 +11,7 @@
 #include "run/glare/glare_picture.h"
 #include "run/level_of_detail.h"
 #include "run/readings/campaign.h"
+#include "run/readings/division.h"
 #include "run/readings/possible_light.h"
 #include "run/readings/power_density.h"
 #include "run/readings/sensor_estimates.h"
@@ -163,15 +164,16 @@ struct RareLight {
 
 /// `first`: of the sensor's readings.
 SensorResult sensor_result(const Campaign& campaign, const Sensor& sensor, SensorEstimates&& estimates,
-                           std::size_t first, std::span<const std::optional<Vec3>> sight_ends) {
+                           std::size_t first, std::span<const std::optional<Vec3>> sight_ends,
+                           ChannelWeights weights) {
     const std::size_t count = sensor.size();
     Campaign::Estimates& own = estimates.readings;
     SensorResult result;
     result.sensor = sensor;
     result.summary = estimates.summary;
     result.replicate_means = std::move(own.replicate_means);
-    const std::vector<Rgb> rgb =
-        has_colour(sensor) ? campaign.rgb(first, count) : std::vector(own.readings.size(), unknown_colour());
+    const std::vector<Rgb> rgb = has_colour(sensor) ? campaign.rgb(first, count, weights)
+                                                    : std::vector(own.readings.size(), unknown_colour());
     for (std::size_t j = 0; j < rgb.size(); ++j) result.readings.push_back({own.readings[j], rgb[j]});
     if (own.bias) {
         result.patch_error = own.bias->relative;
@@ -201,13 +203,14 @@ std::vector<RatedRequirement> rated(std::span<const Requirement> requirements, s
     return all;
 }
 
-/// Sets the results of all sensors and the power density, and adds the warnings of all sensors.
+/// Sets the results of all sensors and the power density, and adds the warnings of all sensors. `scene`,
+/// `glare` and `weights` are those of a state of the lamps.
 void set_results(const Campaign& campaign, const Scene& scene, std::span<const Sensor> sensors,
                  const GlareViews& glare, const RunOptions& options,
-                 std::span<const std::optional<Vec3>> sight_ends, RunResult& result) {
+                 std::span<const std::optional<Vec3>> sight_ends, ChannelWeights weights, RunResult& result) {
     const bool has_looked = sensors::has_requirements(sensors) && ends_when_decided(options);
     const double confidence = confidence_of(options, result.stop_reason);
-    std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence);
+    std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence, weights);
     std::vector<double> attained;
     std::vector<std::vector<GlareView>> views;
     RareLight rare_light;
@@ -223,7 +226,7 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
     glare.rate(estimates, confidence);
     std::vector<SensorEstimates> deciding;
     if (has_looked) {
-        deciding = estimate_all(campaign, sensors, statistics::kVerdictConfidence);
+        deciding = estimate_all(campaign, sensors, statistics::kVerdictConfidence, weights);
         glare.rate(deciding, statistics::kVerdictConfidence);
     }
     std::vector<std::vector<RatedRequirement>> verdicts;
@@ -234,11 +237,29 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
     for (std::size_t s = 0; s < sensors.size(); ++s) {
         const Sensor& sensor = sensors[s];
         SensorResult& own = result.sensors.emplace_back(
-            sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends));
+            sensor_result(campaign, sensor, std::move(estimates[s]), first, sight_ends, weights));
         own.attained_error = attained[s];
         own.glare = std::move(views[s]);
         own.requirements = std::move(verdicts[s]);
         first += sensor.size();
+    }
+}
+
+/// Adds to the sensors what the parts of the light give: of illuminances and luminances, not of ratings.
+void add_shares(const Campaign& campaign, const LightDivision& division, double confidence,
+                RunResult& result) {
+    for (const LightDivision::Part& part : division.shares()) {
+        std::size_t first = 0;
+        for (SensorResult& sensor : result.sensors) {
+            const std::size_t size = sensor.sensor.size();
+            if (size > 0 && !sensor.sensor.rates_glare()) {
+                Campaign::Estimates own = campaign.estimates(sensor.sensor, first, confidence, part.weights);
+                const statistics::GridSummary summary = summary_of(own, confidence);
+                sensor.shares.push_back(
+                    {part.name, std::move(own.readings), summary, std::move(own.replicate_means)});
+            }
+            first += size;
+        }
     }
 }
 
@@ -272,18 +293,69 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
         scene.object(sharp.object).name, static_cast<double>(sharp.samples), samples)};
 }
 
+/// Throws InputError where light must be kept apart, and the method does not.
+void require_channels(const LightDivision& division, const estimators::Estimator& estimator) {
+    if (!division.channels() || !estimator.known_parts().empty()) return;
+    throw InputError(fmt::format(
+        "{}: technique {} keeps the light of lamps and of bounces together. Those that keep it apart: path, "
+        "light-paths, guided, and auto, which chooses one of them.",
+        division.shares().empty() ? "[scenes]" : "by", estimator.technique()));
+}
+
+/// Sets the results of a run in a state of the lamps: sensors, glare, their warnings and power.
+void set_results_in(const LightDivision::State& state, const Campaign& campaign, const Scene& scene,
+                    std::span<const Sensor> sensors, const RunOptions& options,
+                    const estimators::Estimator& estimator, Session& session, RunResult& result) {
+    const Scene lit = scene::relit(scene, state.of_lights);
+    result.power = scene::installed_power(lit);
+    result.rooms = power_of_rooms(lit, session.caster());
+    const int most = session.problem().max_reflections, bounces = state.light_scene.bounces.value_or(most);
+    const std::uint64_t seed = campaign.plan().seed;
+    const GlareViews glare(sensors, {lit, session.caster(), std::min(bounces, most), seed, session.monitor()},
+                           campaign.plan().replicates, key_of_seed(seed).derived(RunStream::glare));
+    set_results(campaign, lit, sensors, glare, options, estimator.sight_ends(), state.weights, result);
+    result.attained_error = 0;
+    for (const SensorResult& sensor : result.sensors)
+        result.attained_error = std::max(result.attained_error, sensor.attained_error);
+    const std::vector<std::string>& chosen = state.light_scene.sensors;
+    if (chosen.empty()) return;
+    std::erase_if(result.sensors, [&](const SensorResult& sensor) {
+        return std::ranges::find(chosen, sensor.sensor.name) == chosen.end();
+    });
+}
+
+/// The results in all light scenes. Their warnings are those of the run, except for glare.
+void add_light_scenes(const LightDivision& division, const Campaign& campaign, const Scene& scene,
+                      std::span<const Sensor> sensors, const RunOptions& options,
+                      const estimators::Estimator& estimator, Session& session, RunResult& result) {
+    for (const LightDivision::State& state : division.states()) {
+        RunResult& own = result.light_scenes.emplace_back();
+        own.scene_name = state.light_scene.name;
+        own.stop_reason = result.stop_reason;
+        session.on_threads(
+            [&] { set_results_in(state, campaign, scene, sensors, options, estimator, session, own); });
+        for (const Warning& warning : std::exchange(own.warnings, {})) {
+            if (warning.kind != WarningKind::glare ||
+                std::ranges::find(result.warnings, warning) != result.warnings.end())
+                continue;
+            result.warnings.emplace_back(WarningKind::glare,
+                                         fmt::format("light scene \"{}\": {}", own.scene_name, warning.text));
+        }
+    }
+}
+
 enum class Samples { as_asked, no_more };
 
 /// Begins a run, or continues one that has a plan. A part of a run has no results.
 RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> given_sensors,
                        const RunOptions& asked_options, ProgressSink* progress,
                        const std::atomic<bool>* interrupt, RunState& state, RunPart part,
-                       Samples samples = Samples::as_asked) {
+                       Samples samples = Samples::as_asked, const LightScene* dimmed = nullptr) {
     const Scene& scene = prepared.scene();
     if (has_levels_of_detail(scene)) {
         DetailedScene detailed = with_levels_of_detail(scene, given_sensors);
         RunResult result = run_readings(detailed.scene, given_sensors, asked_options, progress, interrupt,
-                                        state, part, samples);
+                                        state, part, samples, dimmed);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
@@ -309,8 +381,11 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
     problem.weights = wanted.weights;
     problem.sensors = wanted.sensor_of;
     problem.error = options.error.value_or(problem.error);
+    const LightDivision division(scene, options);
+    problem.channels = division.channels();
     std::unique_ptr<estimators::Estimator> estimator;
     session.on_threads([&] { estimator = method.make(problem); });
+    require_channels(division, *estimator);
     // Patches store the light of highlights: each sample then contains it.
     const transport::SharpLight sharp = method.lights_patches
                                             ? transport::SharpLight{}
@@ -320,13 +395,14 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
     session.on_threads([&] {
         const PictureSetting setting{scene, session.caster(), problem.max_reflections, options.seed,
                                      session.monitor()};
-        glare.emplace(sensors, setting, state.plan.replicates,
-                      key_of_seed(options.seed).derived(RunStream::glare));
+        const math::RandomKey key = key_of_seed(options.seed).derived(RunStream::glare);
+        glare.emplace(sensors, setting, state.plan.replicates, key);
     });
     const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
     const auto campaign_of = [&](RunState& sums, RunPart strands) {
         return std::make_unique<Campaign>(*estimator, sensors, *glare, possible, wanted.measurands.size(),
-                                          sums, options, std::min(sharp.samples, kMostAwaited), strands);
+                                          division.count(), sums, options,
+                                          std::min(sharp.samples, kMostAwaited), strands);
     };
     if (part.of > 1 && !state.plan.is_complete()) {
         RunState first{state.plan, {}};
@@ -345,7 +421,16 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
     result.power = scene::installed_power(scene);
     result.rooms = power_of_rooms(scene, session.caster());
-    if (part.of == 1) set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), result);
+    const bool is_whole = part.of == 1;
+    if (is_whole && dimmed) {
+        const LightDivision::State lamps = division.state_of(*dimmed, scene);
+        session.on_threads(
+            [&] { set_results_in(lamps, campaign, scene, sensors, options, *estimator, session, result); });
+    } else if (is_whole) {
+        set_results(campaign, scene, sensors, *glare, options, estimator->sight_ends(), {}, result);
+        add_shares(campaign, division, confidence_of(options, result.stop_reason), result);
+        add_light_scenes(division, campaign, scene, sensors, options, *estimator, session, result);
+    }
     add_warnings(WarningKind::rare_light, sharp_light_warnings(sharp, result.samples, scene),
                  result.warnings);
     add_warnings(WarningKind::patches, patch_error_warnings(result), result.warnings);
@@ -363,10 +448,12 @@ RunResult measure(const PreparedScene& scene, std::span<const Sensor> sensors, c
 }
 
 RunResult result_of(const PreparedScene& scene, std::span<const Sensor> sensors, const RunOptions& options,
-                    RunState& state, ProgressSink* progress, const std::atomic<bool>* interrupt) {
+                    RunState& state, const LightScene* dimmed, ProgressSink* progress,
+                    const std::atomic<bool>* interrupt) {
     RunOptions without_limit = options;
     without_limit.time_s.reset();
-    return run_readings(scene, sensors, without_limit, progress, interrupt, state, {}, Samples::no_more);
+    return run_readings(scene, sensors, without_limit, progress, interrupt, state, {}, Samples::no_more,
+                        dimmed);
 }
 
 RunSummary measure_part(const PreparedScene& scene, std::span<const Sensor> sensors,

@@ -31,8 +31,8 @@ void include_bias(const statistics::BiasBounds& bias, std::span<const statistics
 }
 
 SensorEstimates estimates_of_meter(const Campaign& campaign, const Sensor& sensor, std::size_t first,
-                                   double confidence) {
-    SensorEstimates all{campaign.estimates(sensor, first, confidence), {}};
+                                   double confidence, ChannelWeights weights) {
+    SensorEstimates all{campaign.estimates(sensor, first, confidence, weights), {}};
     all.summary = summary_of(all.readings, confidence);
     return all;
 }
@@ -77,11 +77,12 @@ GridSummary summary_of(const Campaign::Estimates& estimates, double confidence) 
 }
 
 std::vector<SensorEstimates> estimate_all(const Campaign& campaign, std::span<const Sensor> sensors,
-                                          double confidence) {
+                                          double confidence, ChannelWeights weights) {
     std::vector<SensorEstimates> all(sensors.size());
     std::size_t first = 0;
     for (std::size_t s = 0; s < sensors.size(); ++s) {
-        if (sensors[s].size() > 0) all[s] = estimates_of_meter(campaign, sensors[s], first, confidence);
+        if (sensors[s].size() > 0)
+            all[s] = estimates_of_meter(campaign, sensors[s], first, confidence, weights);
         first += sensors[s].size();
     }
     for (std::size_t s = 0; s < sensors.size(); ++s) {

@@ -25,10 +25,10 @@ struct SensorEstimates {
 /// The summary of a sensor's readings; intervals with the error of the patches.
 statistics::GridSummary summary_of(const Campaign::Estimates& estimates, double confidence);
 
-/// One for each sensor of the campaign, in order; illuminances for sensors that rate glare (glare.h). Throws
-/// InputError where a derived value does not fit.
+/// One for each sensor of the campaign, in order, with the light of channels by their weights; illuminances
+/// for sensors that rate glare (glare.h). Throws InputError where a derived value does not fit.
 std::vector<SensorEstimates> estimate_all(const Campaign& campaign, std::span<const Sensor> sensors,
-                                          double confidence);
+                                          double confidence, ChannelWeights weights = {});
 
 /// The largest relative half-width of the means and minima of sensors with readings; dark minima as dark
 /// readings (statistics::dark_level).

@@ -1,4 +1,4 @@
-// stilb info: the contents of a scene, a luminaire file or a mesh file, with warnings.
+// stilb info: the contents of a scene, a luminaire, a mesh or a state file, with warnings.
 
 #include <fmt/format.h>
 
@@ -14,6 +14,7 @@
 
 #include "cli/command_line.h"
 #include "cli/commands/info/info_report.h"
+#include "cli/commands/info/state_report.h"
 #include "cli/commands/info/ugr_report.h"
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
@@ -49,6 +50,8 @@ InfoReport report_file(const InfoRequest& request, const Monitor& monitor) {
             return report_mesh(file, monitor);
         case io::FileKind::ply_mesh:
             return report_mesh(file, monitor);
+        case io::FileKind::run:
+            return report_state(file);
         default:
             break;
     }
@@ -58,27 +61,29 @@ InfoReport report_file(const InfoRequest& request, const Monitor& monitor) {
 }  // namespace
 
 void add_info(CommandLine& line) {
-    Command command =
-        line.add_command("info", "Show the contents of a scene, luminaire or mesh file, with warnings");
+    Command command = line.add_command(
+        "info", "Show the contents of a scene, luminaire, mesh or state file, with warnings");
     command.set_examples(
         "  stilb info office.toml\n"
         "  stilb info downlight.ies\n"
         "  stilb info panel.ldt --ugr\n"
-        "  stilb info room.obj --json\n");
+        "  stilb info room.obj --json\n"
+        "  stilb info hall.run\n");
     auto request = std::make_shared<InfoRequest>();
     command
         .add("FILE", request->file,
              "Scene (TOML, - for standard input; .gltf, .glb; .obj with materials; .rad), luminaire (.ies, "
-             ".ldt) or mesh (.obj, .ply)")
+             ".ldt), mesh (.obj, .ply) or state of a run (.run)")
         .required();
     add_overrides(command, request->overrides);
     command.add("--ugr", request->has_ugr,
                 "For a luminaire, print the tables of its Unified Glare Rating, too: 19 rooms, five sets of "
                 "reflectances, crosswise and endwise");
-    command.add("--json", request->json,
-                "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
-                "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"notes\", "
-                "\"run\", \"warnings\", \"memory\"}, as far as the file has them; units are in the keys");
+    command.add(
+        "--json", request->json,
+        "One JSON document instead of the text: {\"file\", \"materials\", \"objects\", \"lights\", "
+        "\"total_flux_lm\", \"maintenance\", \"luminaires\", \"sensors\", \"power\", \"notes\", "
+        "\"run\", \"state\", \"warnings\", \"memory\"}, as far as the file has them; units are in the keys");
     command.run([request] {
         const InfoReport report = [&] {
             const LoadingProgress progress;
@@ -328,6 +333,7 @@ std::string section_text(const Json& report, const char* key, const char* title,
 }  // namespace
 
 std::string to_text(const InfoReport& report) {
+    if (report.contains("state")) return text(report, "file") + "\n" + state_text(report["state"]);
     const bool is_named = report.contains("name") && !text(report, "name").empty();
     std::string result = text(report, "file");
     result += is_named ? fmt::format(": {}\n", text(report, "name")) : "\n";
