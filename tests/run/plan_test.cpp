@@ -156,9 +156,9 @@ TEST(RunState, RefusesWhatDoesNotFit) {
     RunState state;
     const RunOptions options = options_of("light-paths", 1 << 15);
     measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state);
-    RunState of_other_seed = state;
-    of_other_seed.plan.seed = 8;
-    EXPECT_THROW(of_other_seed.merge(state), std::invalid_argument);
+    RunState of_other_plan = state;
+    of_other_plan.plan.unit *= 2;
+    EXPECT_THROW(of_other_plan.merge(state), std::invalid_argument);
     RunState twice = state;
     EXPECT_THROW(twice.merge(state), std::invalid_argument);
     RunState elsewhere = state;
@@ -224,9 +224,9 @@ TEST(RunState, MayLackReplicates) {
         const Interrupted method(begun);
         const PossibleLight possible(scene, caster, 8, method);
         RunState state{RunPlan::of(sensors, options, false), {}};
-        Campaign first(method, sensors, glare, possible, 1, state, options, 0);
+        Campaign first(method, sensors, glare, possible, 1, 0, state, options, 0);
         EXPECT_THROW(first.advance(64), Cancelled);
-        const Campaign other(method, sensors, glare, possible, 1, state, options, 0);
+        const Campaign other(method, sensors, glare, possible, 1, 0, state, options, 0);
         for (const Campaign* campaign : {static_cast<const Campaign*>(&first), &other}) {
             EXPECT_EQ(campaign->has_result(), begun >= 8);
             EXPECT_EQ(campaign->replicates(), static_cast<std::size_t>(begun));
@@ -293,11 +293,58 @@ TEST(RunState, OfAGridIsCompleteFromThePacesOn) {
     measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state);
     EXPECT_FALSE(state.plan.is_complete());
     RunState part{state.plan, {}};
-    EXPECT_THROW(measure_part(scene, {&sensor, 1}, options, {0, 2}, part), std::invalid_argument);
+    measure_part(scene, {&sensor, 1}, options, {0, 2}, part);
+    EXPECT_TRUE(part.plan.is_complete() && part.plan.paces.empty()) << "so few samples decide no paces";
     options.paths = 8 * 16;
     measure(scene, {&sensor, 1}, options, nullptr, nullptr, &state);
     EXPECT_TRUE(state.plan.is_complete());
     EXPECT_EQ(state.plan.paces.size(), 8u);
+}
+
+/// Parts that begin without a plan make the same one, each by itself, also where samples decide the paces.
+TEST(RunState, OfPartsWithoutAPlanIsThatOfTheWhole) {
+    const Scene scene = lit_room();
+    const Sensor sensor = floor_grid(8);
+    const RunOptions options = options_of("guided", 8 * 32);
+    RunState whole;
+    measure(scene, {&sensor, 1}, options, nullptr, nullptr, &whole);
+    ASSERT_FALSE(whole.plan.paces.empty());
+    std::optional<RunState> merged;
+    for (std::size_t number = 0; number < 5; ++number) {
+        RunState part;
+        measure_part(scene, {&sensor, 1}, options, {number, 5}, part);
+        merged ? merged->merge(state_of(bytes_of(part))) : void(merged = part);
+    }
+    EXPECT_EQ(bytes_of(*merged), bytes_of(whole));
+}
+
+/// The replicates of one seed are added to those of the other: means by samples, and the errors of as many.
+TEST(RunState, OfSeveralSeedsHasTheirSamples) {
+    const Scene scene = lit_room();
+    const Sensor sensor = floor_grid(2);
+    std::vector<RunState> states(2);
+    std::vector<RunResult> results;
+    for (std::size_t i = 0; i < 2; ++i) {
+        RunOptions options = options_of("light-paths", (i + 1) << 15);
+        options.seed = i + 1;
+        results.push_back(measure(scene, {&sensor, 1}, options, nullptr, nullptr, &states[i]));
+    }
+    RunState merged = states[0];
+    merged.merge(states[1]);
+    EXPECT_EQ(merged.seeds(), (std::vector<std::uint64_t>{1, 2}));
+    merged = state_of(bytes_of(merged));
+    EXPECT_THROW(merged.merge(states[1]), std::invalid_argument) << "its seed is there";
+    const RunResult of_both = result_of(scene, {&sensor, 1}, options_of("light-paths", 1 << 15), merged);
+    EXPECT_EQ(of_both.samples, results[0].samples + results[1].samples);
+    for (std::size_t j = 0; j < 4; ++j) {
+        const double expected = (results[0].sensors[0].readings[j].estimate.value +
+                                 2 * results[1].sensors[0].readings[j].estimate.value) /
+                                3;
+        EXPECT_NEAR(of_both.sensors[0].readings[j].estimate.value, expected, 1e-9 * expected);
+    }
+    EXPECT_THROW(measure(scene, {&sensor, 1}, options_of("light-paths", 1 << 17), nullptr, nullptr, &merged),
+                 std::invalid_argument)
+        << "no seed of its own goes on";
 }
 
 }  // namespace
