@@ -20,8 +20,8 @@ namespace {
 struct ResumeRequest {
     std::string file;
     // As texts: the command of the run reads them.
-    std::optional<std::string> error, time, paths, output, threads, state_every;
-    bool quiet = false, progress = false;
+    std::optional<std::string> error, time, paths, output, json, csv, picture, threads, state_every;
+    bool quiet = false, progress = false, has_replicates = false;
 };
 
 constexpr std::array<std::string_view, 3> kLimits{"--error", "--time", "--paths"};
@@ -41,8 +41,14 @@ std::vector<std::string> arguments_of(const ResumeRequest& request, const io::Ru
         all = without_flags(std::move(all), {&flag, 1});
         all.insert(all.end(), {std::string(flag), *value});
     };
+    const auto add_file = [&](std::string_view flag, const std::optional<std::string>& path) {
+        add(flag, path ? std::optional(absolute(*path)) : std::nullopt);
+    };
     if (request.output) all = without_flags(std::move(all), std::array<std::string_view, 1>{"-o"});
-    add("--output", request.output ? std::optional(absolute(*request.output)) : std::nullopt);
+    add_file("--output", request.output);
+    add_file("--json", request.json);
+    add_file("--csv", request.csv);
+    add_file("--falsecolor", request.picture);
     add("--error", request.error);
     add("--time", request.time);
     add("--paths", request.paths);
@@ -52,6 +58,7 @@ std::vector<std::string> arguments_of(const ResumeRequest& request, const io::Ru
     const auto add_switch = [&](const std::string& flag, bool is_on) {
         if (is_on && std::ranges::find(all, flag) == all.end()) all.push_back(flag);
     };
+    add_switch("--replicates", request.has_replicates);
     add_switch("--quiet", request.quiet);
     add_switch("--progress", request.progress);
     all.insert(all.begin(), {"stilb", origin.command});
@@ -94,6 +101,16 @@ void add_resume(CommandLine& line, RunCommands run_commands) {
     add("--time", request->time, "Another limit: so many seconds more", "S");
     add("--paths", request->paths, "Another limit: so many samples in all", "N");
     add("-o,--output", request->output, "Another file for the result", "FILE");
+    command
+        .add("--json", request->json,
+             "One JSON document on stdout instead of the table, or into this file (measure)")
+        .optional_value("-")
+        .value_name("[FILE]");
+    add("--csv", request->csv, "Write also a CSV file per sensor into this folder (measure)", "DIR");
+    add("--falsecolor", request->picture, "Write also a false-colour picture of grids and areas (measure)",
+        "FILE");
+    command.add("--replicates", request->has_replicates,
+                "Write also the values of all replicates into the JSON document (measure)");
     add("--threads", request->threads, "Processor threads", "N");
     add("--state-every", request->state_every, "Write the state every so many seconds", "S");
     command.add("--quiet", request->quiet, "Print no progress and no warnings");
