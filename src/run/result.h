@@ -147,8 +147,11 @@ struct RoomPower {
 };
 
 struct RunResult : RunSummary {
-    std::string scene_name;             ///< may be empty
-    std::uint64_t rays = 0;             ///< of the connections to receivers
+    std::string scene_name;  ///< may be empty
+    std::uint64_t rays = 0;  ///< of the connections to receivers
+    /// Nominal, of the intervals: more than 95 % where the run stopped by its own estimates, so that they
+    /// hold in 95 % of the runs.
+    double confidence = 0.95;
     std::vector<SensorResult> sensors;  ///< in the order requested
     scene::InstalledPower power;
     std::optional<PowerDensity> power_density;
