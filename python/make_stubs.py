@@ -88,7 +88,7 @@ def main():
     module, names = (importlib.import_module(f"stilb.{name}") for name in ("_stilb", "_names"))
     text, names = classes(module.part_types(), names.class_name)
     (folder / "parts.pyi").write_text(f"{HEAD}{text}\n__all__ = {sorted(names)}\n", encoding="utf-8")
-    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, _ in module.described_options())
+    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, *_ in module.described_options())
     (folder / "options.pyi").write_text(OPTIONS.format(keys), encoding="utf-8")
     stubgen.main(["-q", "-r", "-m", "stilb._stilb", "-O", str(folder)])
 

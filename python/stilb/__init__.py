@@ -13,9 +13,12 @@ from ._stilb import Cancelled, InputError, Progress
 from ._stilb import version as __version__
 from .parts import *
 from .parts import __all__ as _parts
-from .results import Estimate, Image, Reading, Result
+from .estimates import Estimate
+from .pairs import Pair, PairedReading, paired
+from .results import Image, Reading, Result, ResultWarning, Run
 from .scene import Scene, Section, load
 from .solution import Solution, load_solution
 
-__all__ = ["Cancelled", "Estimate", "Image", "InputError", "Progress", "Reading", "Result", "Scene", "Section",
-           "Solution", "__version__", "exact", "load", "load_solution", "statistics", *_parts]
+__all__ = ["Cancelled", "Estimate", "Image", "InputError", "Pair", "PairedReading", "Progress", "Reading", "Result",
+           "ResultWarning", "Run", "Scene", "Section", "Solution", "__version__", "exact", "load", "load_solution", "paired",
+           "statistics", *_parts]
