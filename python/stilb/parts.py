@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _stilb
+from ._meanings import docstring
 from ._names import class_name
 from ._stilb import InputError
 
@@ -135,7 +136,7 @@ def _make_class(section: str, name: str, keys: list[str]) -> type[Part]:
         "type": name,
         "_allowed": tuple(own),
         "__module__": "stilb",
-        "__doc__": f'{section}: {base.type_key} = "{name}". Keys: {", ".join(own)} (docs/scene-format.md).',
+        "__doc__": docstring(section, name, own),
         "__signature__": inspect.Signature(parameters),
     })
 
@@ -146,14 +147,12 @@ CLASSES: dict[tuple[str, str], type[Part]] = {
 
 
 class Mesh(CLASSES["objects", "mesh"]):  # type: ignore[misc]
-    """A mesh: of a file (`file="room.obj"`), or of arrays.
-
-    `vertices` (n, 3) are positions [m], `faces` (m, 3) their indices: the front of a triangle is the side from which they
-    run counterclockwise. The arrays are copied.
-    """
-
     __module__ = "stilb"
     _allowed = ("vertices", "faces", *CLASSES["objects", "mesh"]._allowed)
+    __doc__ = docstring("objects", "mesh", list(_allowed)) + """
+
+    The front of a triangle is the side from which its corners run counterclockwise. Arrays are copied.
+    """
     __signature__ = inspect.Signature([
         inspect.Parameter("vertices", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
         inspect.Parameter("faces", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),

@@ -48,7 +48,7 @@ def table_of_all(result: Result) -> pandas.DataFrame:
 
 
 def dataset(reading: Reading) -> xarray.Dataset:
-    xarray = _needed("xarray")
+    module = _needed("xarray")
     axes: tuple[str, ...] = ("v", "u")
     if not reading._is_grid():
         axes = ("reading",) if len(reading.shape) == 1 else tuple(f"axis_{i}" for i in range(len(reading.shape)))
@@ -63,4 +63,5 @@ def dataset(reading: Reading) -> xarray.Dataset:
         position = reading.position
         for axis, line in (("u", position[0]), ("v", position[:, 0])):
             coordinates[axis] = (axis, step(line) * (np.arange(len(line)) + 0.5), {"units": "m"})
-    return xarray.Dataset(variables, coordinates, {"name": reading.name, **unit})
+    data: xarray.Dataset = module.Dataset(variables, coordinates, {"name": reading.name, **unit})
+    return data

@@ -8,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import stilb
 from room import TOML, built, program
+from stilb import _meanings, _stilb
+from stilb._names import class_name
 
 PATHS = 2048
 
@@ -228,6 +230,20 @@ class Parts(unittest.TestCase):
         for name in ["Diffuse", "Plastic", "Box", "Harmonics", "PointLight", "AreaLight", "PhotometryLight", "EnvironmentLight",
                      "Grid", "Area", "Ugr", "Derived", "Camera"]:
             self.assertTrue(issubclass(getattr(stilb, name), stilb.Part), name)
+
+    def test_docstrings_name_all_keys_with_their_meaning(self):
+        self.assertRegex(stilb.PointLight.__doc__, r"^A point that shines(.|\n)*\n    flux +luminous flux of each light \[lm\]\n")
+        self.assertIn("projection  \"perspective\", \"fisheye\" or \"panorama\" (default: \"perspective\")", stilb.Camera.__doc__)
+        known = {(kind.section, kind.type): {*kind.keys} for kind in _stilb.part_types()}
+        known["objects", "mesh"] |= {"vertices", "faces"}
+        for (section, kind), keys in known.items():
+            doc = getattr(stilb, class_name(section, kind)).__doc__
+            for key in keys - {"type", "shape"}:
+                self.assertRegex(doc, rf"(?m)^    {key} +[^ ]")
+        for place, keys in _meanings.KEYS.items():  # none is of a key that the reader does not know
+            section, _, kind = place.partition(".")
+            of_section = set().union(*(own for (of, _), own in known.items() if of == section))
+            self.assertLessEqual(set(keys), known[section, kind] if kind else of_section, place)
 
     def test_dictionaries_are_parts(self):
         scene = built()
