@@ -14,9 +14,13 @@ from numpy.typing import NDArray
 from . import _stilb
 from ._stilb import InputError
 
-__all__ = ["Errors", "Estimate", "RunKey"]
+__all__ = ["Errors", "Estimate", "ResultWarning", "RunKey"]
 
 Numbers = NDArray[np.float64]
+
+
+class ResultWarning(UserWarning):
+    """A warning about a scene or its result, or that a run ended before it reached the error that was asked for."""
 
 
 class RunKey(NamedTuple):

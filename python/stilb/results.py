@@ -6,7 +6,7 @@ import os
 import tempfile
 import uuid
 import warnings
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from html import escape
 from pathlib import Path
@@ -15,19 +15,15 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from . import _stilb
-from .estimates import Errors, Estimate, Numbers, RunKey
+from . import _stilb, program
+from .estimates import Errors, Estimate, Numbers, ResultWarning, RunKey
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import xarray
 
-__all__ = ["Image", "Reading", "Result", "ResultWarning", "Run"]
-
-
-class ResultWarning(UserWarning):
-    """A warning about a scene or its result, or that a run ended before it reached the error that was asked for."""
+__all__ = ["Image", "Reading", "Result", "Run"]
 
 
 class Run:
@@ -118,10 +114,10 @@ class Run:
         return f"The run ended before its goal: {self.stopped}."
 
 
-def warn_of(run: Run) -> None:
-    """Python warnings of what is odd about a result, in the name of the caller of `Scene.measure` and its kin."""
+def warn_of(run: Run, level: int = 4) -> None:
+    """Python warnings of what is odd about a result. `level`: of the user's call in the stack."""
     for text in run._notes():
-        warnings.warn(text, ResultWarning, stacklevel=4)
+        warnings.warn(text, ResultWarning, stacklevel=level)
 
 
 class Reading:
@@ -374,6 +370,26 @@ class Result(Run, Mapping[str, Reading]):
 
         return tables.table_of_all(self)
 
+    def falsecolor(self, path: str | os.PathLike[str], *, sensors: Sequence[str] | None = None, log: bool = False,
+                   minimum: float | None = None, maximum: float | None = None, isolines: bool = False, numbers: bool = False,
+                   errors: bool = False) -> None:
+        """Draws grids and areas in false colours, as .png or .svg, at one scale of metres and one of colours. The program
+        `stilb`, which is installed with the package, does this.
+
+        sensors   names of the grids (default: all)
+        log       a logarithmic scale
+        minimum   lower end of the scale (default: a round number); likewise `maximum`
+        isolines  labelled lines of equal value
+        numbers   the value of each cell
+        errors    half of the 95 % intervals, after a ±
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "result.json"
+            file.write_text(self.to_json(), encoding="utf-8")
+            names = [self[name].name for name in sensors or []]
+            program.run("falsecolor", file, output=program.absolute(path), sensor=names, log=log, min=minimum, max=maximum,
+                        isolines=isolines, numbers=numbers, errors=errors)
+
     def __repr__(self) -> str:
         return "\n".join([*(f"{name}: {reading._text()}" for name, reading in self.items()), self._ending(),
                           *(f"Warning: {text}" for text in self._notes())])
@@ -423,6 +439,15 @@ class Image(Run):
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes OpenEXR, Radiance or PNG, by the ending: .exr, .hdr, .png (docs/pictures.md)."""
         self._picture.save(Path(path))
+
+    def falsecolor(self, path: str | os.PathLike[str], *, log: bool = False, minimum: float | None = None,
+                   maximum: float | None = None, isolines: bool = False, numbers: bool = False) -> None:
+        """Draws the luminance in false colours, as .png or .svg: as `Result.falsecolor`, by the program."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "picture.exr"
+            self.save(file)
+            program.run("falsecolor", file, output=program.absolute(path), log=log, min=minimum, max=maximum,
+                        isolines=isolines, numbers=numbers)
 
     def plot(self, axes: matplotlib.axes.Axes | None = None, **style: Any) -> matplotlib.axes.Axes:
         """Draws the luminance in false colours, with a logarithmic scale. Needs matplotlib; returns the axes."""

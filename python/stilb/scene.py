@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import copy
 import os
+import tempfile
 import tomllib
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, MutableMapping
 from pathlib import Path
 from typing import Any, TypedDict, TypeVar, Unpack
@@ -12,8 +14,9 @@ from typing import Any, TypedDict, TypeVar, Unpack
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _stilb
+from . import _stilb, program
 from ._stilb import InputError
+from .estimates import ResultWarning
 from .options import DESCRIPTION, Limits, options
 from .parts import Mesh, Part, part_of
 from .progress import Progress, called
@@ -282,6 +285,32 @@ class Scene:
         solved = copy.copy(self)
         return _warned(called(progress, lambda sink: _stilb.solve(scene, chosen, sink),
                               lambda solution: Solution(solution, solved)))
+
+    def export(self, folder: str | os.PathLike[str], format: str) -> list[Path]:
+        """Writes the scene, its points and its views for "mitsuba" or "radiance" (docs/export.md). Returns the files; what
+        has no equal in the other program is warned of."""
+        written = _stilb.export_scene(self._scene(), format, Path(folder))
+        for text in written.warnings:
+            warnings.warn(text, ResultWarning, stacklevel=2)
+        return written.files
+
+    def report(self, path: str | os.PathLike[str], *, sensors: Iterable[str] | None = None, readings: bool = False,
+               view_time: float | None = None, view_passes: int | None = None, **limits: Unpack[Limits]) -> None:
+        """Measures the sensors, renders the cameras, and writes a page for clients (.html, docs/report.md). The program
+        `stilb`, which is installed with the package, does this.
+
+        `sensors`: names of sensors and cameras; all by default. `readings`: whether the page lists all of them. `view_time`
+        [s] or `view_passes`: of each camera (default: 60 s). `limits`: of the readings, see `help(stilb.Scene)`.
+        """
+        options(self._scene(), limits)  # for its messages
+        with tempfile.TemporaryDirectory() as folder:
+            file, settings = Path(folder) / "scene.toml", list[str]()
+            if self._path is not None and self._scene().path() == self._path:  # as it was read
+                file, settings = self._path, self._settings
+            else:
+                copy.copy(self).save(file)
+            program.run("report", file, output=program.absolute(path), set=settings, sensor=list(sensors or []),
+                        readings=readings, view_time=view_time, view_passes=view_passes, quiet=True, **limits)
 
     def to_dict(self) -> dict[str, Any]:
         """The document of the scene file."""

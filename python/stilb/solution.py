@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _stilb
 from .progress import Progress, called
-from .results import Image, Run
+from .results import Image, Run, warn_of
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -48,7 +48,9 @@ class Solution(Run):
                progress: Progress = None) -> Image:
         """A picture from the stored light. `lights`: a factor for each light, or three of them for red, green, blue."""
         factors = {name: _bands(factor) for name, factor in (lights or {}).items()}
-        return called(progress, lambda sink: self._solution.render(camera, factors, sink), Image)
+        image = called(progress, lambda sink: self._solution.render(camera, factors, sink), Image)
+        warn_of(image, 3)
+        return image
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a file for `stilb render --from` and `stilb view`. It refers to the scene's file: a scene that was built
