@@ -32,8 +32,7 @@ std::optional<int> run_program(std::vector<std::string> words) {
 /// program in lib/python3.11/site-packages/stilb.scripts, and a script that starts it in bin.
 std::string python() {
     std::error_code error;
-    const std::filesystem::path folder =
-        std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
     if (error) return "python3";
     const bool is_of_wheel = folder.filename() == "stilb.scripts";
     const auto interpreter = (is_of_wheel ? folder / "../../../../bin" : folder) / "python3";
