@@ -64,7 +64,7 @@ def open_package(folder):
     sys.modules["stilb"] = package
 
 
-def classes(kinds, class_name):
+def classes(kinds, class_name, docstring):
     """The text of the stubs, and the names."""
     bases = {"materials": "Material", "objects": "Object", "lights": "Light", "sensors": "Sensor"}
     names = ["Part", *bases.values()]
@@ -78,6 +78,7 @@ def classes(kinds, class_name):
             continue
         parameters = "".join(f", {key}: Value = ..." for key in keys)
         text += f"\nclass {name}({bases[kind.section]}):\n"
+        text += f'    """{docstring(kind.section, kind.type, keys, 8 * " ")}"""\n'
         text += f"    def __init__(self{', *' if parameters else ''}{parameters}) -> None: ...\n"
     return text, names
 
@@ -85,10 +86,10 @@ def classes(kinds, class_name):
 def main():
     folder = Path(sys.argv[1])
     open_package(folder)
-    module, names = (importlib.import_module(f"stilb.{name}") for name in ("_stilb", "_names"))
-    text, names = classes(module.part_types(), names.class_name)
+    module, names, meanings = (importlib.import_module(f"stilb.{name}") for name in ("_stilb", "_names", "_meanings"))
+    text, names = classes(module.part_types(), names.class_name, meanings.docstring)
     (folder / "parts.pyi").write_text(f"{HEAD}{text}\n__all__ = {sorted(names)}\n", encoding="utf-8")
-    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, _ in module.described_options())
+    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, *_ in module.described_options())
     (folder / "options.pyi").write_text(OPTIONS.format(keys), encoding="utf-8")
     stubgen.main(["-q", "-r", "-m", "stilb._stilb", "-O", str(folder)])
 

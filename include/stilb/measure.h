@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -52,6 +53,10 @@ struct SensorResult {
     double attained_error = 0;  ///< relative half-width of the intervals of 95 % of the readings, at most
     Estimate diversity;         ///< minimum over maximum
     std::vector<Requirement> requirements;
+    /// The readings in each independent replicate, replicates x readings: the basis of all errors, from which
+    /// those of differences and other functions of readings follow. Rows of runs with the same seed belong
+    /// together.
+    std::vector<double> replicates;
 };
 
 /// A run of measure(), render() or solve(): its options, its effort and its success.
@@ -64,8 +69,12 @@ struct Summary {
     std::uint64_t samples = 0;  ///< as in Options
     int replicates = 0;         ///< independent repetitions that the errors come from
     double elapsed_s = 0;
+    /// What ended the run: "target reached", "requirements decided", "paths done", "time over", "interrupted"
+    /// or "patches too coarse".
+    std::string stopped;
     /// False where the error asked for was not reached, or the run was interrupted.
     bool converged = true;
+    std::optional<double> requested_error;
     double attained_error = 0;
     std::vector<std::string> warnings;
     std::vector<std::string> warning_kinds;  ///< of each: "holes", "rare-light" ... (docs/warnings.md)
@@ -73,11 +82,17 @@ struct Summary {
 
 struct Result : Summary {
     std::vector<SensorResult> sensors;
-    /// The document that `stilb measure --json` prints: docs/json.md.
-    std::string json;
+    /// The nominal confidence of the intervals: more than 0.95 where the run stopped by its own estimates, so
+    /// that they hold in 95 % of the runs.
+    double confidence = 0.95;
 
+    /// The document that `stilb measure --json` prints: docs/json.md.
+    std::string json() const;
     /// Throws InputError where there is no such sensor.
     const SensorResult& operator[](std::string_view sensor) const;
+
+    struct Data;
+    std::shared_ptr<const Data> data;
 };
 
 /// Measures the sensors of a scene that are no cameras, or those of these names. Without options, by the

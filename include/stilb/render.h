@@ -22,6 +22,8 @@ struct Picture : Summary {
     std::vector<float> luminance_cd_m2;
     std::vector<float> standard_error_cd_m2;      ///< empty where it is not known
     std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
+    std::vector<float> depth_m;                   ///< of the surface in the pixel's middle; NaN where none is
+    std::vector<std::array<float, 3>> normals;    ///< its unit normal, likewise
 
     /// Writes .exr, .hdr or .png, by the extension. Throws InputError where the file cannot be written.
     void save(const std::filesystem::path& path) const;
@@ -54,6 +56,7 @@ class Solution {
 
     struct Data;
     explicit Solution(std::shared_ptr<const Data> data) : data_(std::move(data)) {}
+    const Data& data() const { return *data_; }
 
   private:
     std::shared_ptr<const Data> data_;

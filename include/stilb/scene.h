@@ -118,6 +118,15 @@ class SceneBuilder {
     std::unique_ptr<Data> data_;
 };
 
+/// What export_scene() has written.
+struct Export {
+    std::vector<std::filesystem::path> files;
+    std::vector<std::string> warnings;  ///< of what has no equal in the other program
+};
+/// Writes a scene, its points and its views for "mitsuba" or "radiance" into a folder, which is made where it
+/// does not exist. Throws InputError where files cannot be written, and for other formats.
+Export export_scene(const Scene& scene, const std::string& format, const std::filesystem::path& folder);
+
 /// A type of material, shape, light or sensor, with its keys.
 struct PartType {
     std::string section;  ///< "materials", "objects", "lights" or "sensors"

@@ -6,6 +6,7 @@
 #include "stilb/options.h"
 #include "stilb/render.h"
 #include "stilb/scene.h"
+#include "stilb/version.h"
 
 namespace stilb {
 

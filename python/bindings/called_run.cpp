@@ -43,4 +43,13 @@ void CalledRun::attend(const std::optional<Progress>& progress) {
     }
 }
 
+void CalledRun::throw_with(const nb::object& result) const {
+    try {
+        std::rethrow_exception(caller_error_);
+    } catch (nb::python_error& error) {
+        nb::setattr(error.value(), "result", result);
+        throw;
+    }
+}
+
 }  // namespace stilb::api::bindings

@@ -25,7 +25,8 @@ class CalledRun {
     explicit CalledRun(nanobind::object progress) : progress_(std::move(progress)) {}
 
     /// Returns the result of run(control), and throws what it or the function of progress throws;
-    /// KeyboardInterrupt after Ctrl-C.
+    /// KeyboardInterrupt after Ctrl-C. Exceptions of the caller have the run's result so far as their
+    /// attribute `result`, None where there is none yet.
     template <typename Run>
     auto operator()(const Run& run) {
         const Control control{[this](const Progress& progress) { report(progress); }, &interrupt_};
@@ -43,7 +44,7 @@ class CalledRun {
             wait();
             thread.join();
         }
-        if (caller_error_) std::rethrow_exception(caller_error_);
+        if (caller_error_) throw_with(result ? nanobind::cast(std::move(*result)) : nanobind::none());
         if (error_) std::rethrow_exception(error_);
         return std::move(*result);
     }
@@ -54,6 +55,8 @@ class CalledRun {
     void wait();
     /// Handles signals and calls the function of progress.
     void attend(const std::optional<Progress>& progress);
+    /// Throws the caller's exception, with the result.
+    [[noreturn]] void throw_with(const nanobind::object& result) const;
 
     nanobind::object progress_;
     std::atomic<bool> interrupt_ = false;

@@ -7,11 +7,15 @@
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
 
+#include "base/statistic.h"
 #include "bindings/parts.h"
+#include "bindings/states.h"
+#include "statistics/grid_summary.h"
 #include "stilb/measure.h"
 #include "stilb/render.h"
 
@@ -54,31 +58,57 @@ Pixels plane(nb::pointer_and_handle<Picture> picture, const std::vector<float>& 
     return Pixels(values.data(), {height, width}, picture.h);
 }
 
+Pixels triple_plane(nb::pointer_and_handle<Picture> picture,
+                    const std::vector<std::array<float, 3>>& values) {
+    const auto height = static_cast<std::size_t>(picture.p->height);
+    const auto width = static_cast<std::size_t>(picture.p->width);
+    return Pixels(values.data()->data(), {height, width, 3}, picture.h);
+}
+
+/// Replicates x readings.
+Numbers replicates(nb::pointer_and_handle<SensorResult> result) {
+    const std::vector<double>& values = result.p->replicates;
+    const std::size_t readings = result.p->readings.size();
+    return Numbers(values.data(), {readings == 0 ? 0 : values.size() / readings, readings}, result.h);
+}
+
+/// By how much each replicate differs from a statistic, to first order.
+std::vector<double> residuals(const SensorResult& result, const std::string& statistic) {
+    const auto found = std::ranges::find(kStatisticNames, statistic);
+    return statistics::residuals_of({result.replicates, result.readings.size()},
+                                    static_cast<Statistic>(found - kStatisticNames.begin()));
+}
+
 void add_estimates(nb::module_& module) {
-    nb::class_<Estimate>(module, "Estimate")
-        .def_ro("value", &Estimate::value)
+    nb::class_<Estimate> estimate(module, "Estimate");
+    add_state(estimate);
+    estimate.def_ro("value", &Estimate::value)
         .def_ro("standard_error", &Estimate::standard_error)
         .def_ro("lower", &Estimate::lower)
         .def_ro("upper", &Estimate::upper);
-    nb::class_<Requirement>(module, "Requirement")
-        .def_ro("key", &Requirement::key)
+    nb::class_<Requirement> requirement(module, "Requirement");
+    add_state(requirement);
+    requirement.def_ro("key", &Requirement::key)
         .def_ro("limit", &Requirement::limit)
         .def_prop_ro("verdict",
-                     [](const Requirement& requirement) {
+                     [](const Requirement& rated) {
                          constexpr std::array names{"pass", "fail", "undecided", "unsure"};
-                         return names[static_cast<std::size_t>(requirement.verdict)];
+                         return names[static_cast<std::size_t>(rated.verdict)];
                      })
         .def_ro("reason", &Requirement::reason);
 }
 
 void add_summary(nb::module_& module) {
-    nb::class_<Summary>(module, "Summary")
-        .def_ro("method", &Summary::method)
+    nb::class_<Summary> summary(module, "Summary");
+    add_state(summary);
+    summary.def_ro("method", &Summary::method)
         .def_ro("technique", &Summary::technique)
         .def_ro("seed", &Summary::seed)
         .def_ro("samples", &Summary::samples)
         .def_ro("replicates", &Summary::replicates)
         .def_ro("elapsed_s", &Summary::elapsed_s)
+        .def_ro("stopped", &Summary::stopped)
+        .def_ro("requested_error", &Summary::requested_error)
         .def_ro("converged", &Summary::converged)
         .def_ro("attained_error", &Summary::attained_error)
         .def_ro("warnings", &Summary::warnings)
@@ -86,8 +116,9 @@ void add_summary(nb::module_& module) {
 }
 
 void add_readings(nb::module_& module) {
-    nb::class_<SensorResult>(module, "SensorResult")
-        .def_ro("name", &SensorResult::name)
+    nb::class_<SensorResult> sensor(module, "SensorResult");
+    add_state(sensor);
+    sensor.def_ro("name", &SensorResult::name)
         .def_ro("type", &SensorResult::type)
         .def_ro("quantity", &SensorResult::quantity)
         .def_ro("unit", &SensorResult::unit)
@@ -105,15 +136,22 @@ void add_readings(nb::module_& module) {
         .def_prop_ro("upper", &values<&Reading::upper>)
         .def_prop_ro("rgb", &triples<&Reading::rgb>)
         .def_prop_ro("position", &triples<&Reading::position>)
-        .def_prop_ro("direction", &triples<&Reading::direction>);
-    nb::class_<Result, Summary>(module, "Result")
-        .def_ro("sensors", &Result::sensors, nb::rv_policy::reference_internal)
-        .def_ro("json", &Result::json);
+        .def_prop_ro("direction", &triples<&Reading::direction>)
+        .def_prop_ro("replicates", &replicates)
+        .def("residuals", &residuals, nb::arg("statistic"));
+    nb::class_<Result, Summary> result(module, "Result");
+    add_state(result);
+    result.def_ro("sensors", &Result::sensors, nb::rv_policy::reference_internal)
+        .def_ro("confidence", &Result::confidence)
+        .def(
+            "summary", [](const Result& all) { return Summary(all); }, "Without the readings.")
+        .def("json", &Result::json, nb::call_guard<nb::gil_scoped_release>());
 }
 
 void add_pictures(nb::module_& module) {
-    nb::class_<Picture, Summary>(module, "Picture")
-        .def_ro("width", &Picture::width)
+    nb::class_<Picture, Summary> type(module, "Picture");
+    add_state(type);
+    type.def_ro("width", &Picture::width)
         .def_ro("height", &Picture::height)
         .def_prop_ro("luminance",
                      [](nb::pointer_and_handle<Picture> picture) {
@@ -127,10 +165,14 @@ void add_pictures(nb::module_& module) {
                      })
         .def_prop_ro("rgb",
                      [](nb::pointer_and_handle<Picture> picture) {
-                         const auto height = static_cast<std::size_t>(picture.p->height);
-                         const auto width = static_cast<std::size_t>(picture.p->width);
-                         return Pixels(picture.p->rgb_cd_m2.data()->data(), {height, width, 3}, picture.h);
+                         return triple_plane(picture, picture.p->rgb_cd_m2);
                      })
+        .def_prop_ro(
+            "depth",
+            [](nb::pointer_and_handle<Picture> picture) { return plane(picture, picture.p->depth_m); })
+        .def_prop_ro(
+            "normals",
+            [](nb::pointer_and_handle<Picture> picture) { return triple_plane(picture, picture.p->normals); })
         .def("save", &Picture::save, nb::arg("path"), nb::call_guard<nb::gil_scoped_release>());
 }
 

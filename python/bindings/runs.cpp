@@ -4,6 +4,7 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/map.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
@@ -11,6 +12,7 @@
 
 #include "bindings/called_run.h"
 #include "bindings/parts.h"
+#include "bindings/states.h"
 #include "stilb/measure.h"
 #include "stilb/render.h"
 
@@ -72,6 +74,19 @@ void add_runs(nb::module_& module) {
 
     nb::class_<Solution>(module, "Solution")
         .def_static("load", &Solution::load, nb::arg("path"), nb::call_guard<nb::gil_scoped_release>())
+        .def("state",
+             [](const Solution& solution) {
+                 const std::string bytes = stored(solution);
+                 return std::pair{state_of(solution.summary()), nb::bytes(bytes.data(), bytes.size())};
+             })
+        .def_static(
+            "restored",
+            [](const Scene& scene, const std::pair<SummaryState, nb::bytes>& state) {
+                const auto& [summary, bytes] = state;
+                return restored_solution(scene, restored(summary), {bytes.c_str(), bytes.size()});
+            },
+            nb::arg("scene"), nb::arg("state"))
+        .def("scene", [](const Solution& solution) { return solution.data().scene; })
         .def("summary", &Solution::summary)
         .def("lights", &Solution::lights)
         .def("save", &Solution::save, nb::arg("path"), nb::call_guard<nb::gil_scoped_release>())

@@ -1,11 +1,13 @@
 // Scenes: read from files, or built from dictionaries with the keys of scene files.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <nanobind/nanobind.h>
 #include <nanobind/ndarray.h>
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
 #include <nanobind/stl/string.h>
+#include <nanobind/stl/string_view.h>
 #include <nanobind/stl/variant.h>
 #include <nanobind/stl/vector.h>
 
@@ -16,6 +18,7 @@
 #include <utility>
 #include <variant>
 
+#include "api/scene_data.h"
 #include "base/field.h"
 #include "bindings/called_run.h"
 #include "bindings/parts.h"
@@ -49,6 +52,13 @@ std::string type_name(const Option& option) {
     return std::is_same_v<typename Option::Plain, std::string> ? "str" : "int";
 }
 
+std::string allowed(const Range& limits) { return std::string(limits.allowed); }
+std::string allowed(const Share& limits) { return std::string(limits.range.allowed); }
+std::string allowed(const WholeRange& limits) {
+    return fmt::format("a whole number from {} to {}", limits.min, limits.max);
+}
+std::string allowed(const Names& limits) { return fmt::format("{}", fmt::join(limits.all(), ", ")); }
+
 /// One of Options, under its key.
 template <typename Limits>
 void add_option(nb::class_<Options>& options, const auto& option, const Limits&) {
@@ -73,15 +83,16 @@ void add_option(nb::class_<Options>& options, const auto& option, const Share&) 
 void add_options(nb::module_& module) {
     nb::class_<Options> options(module, "Options");
     options.def(nb::init<>());
-    std::vector<std::array<std::string, 3>> described;
+    std::vector<std::array<std::string, 4>> described;
     for_each_field<Options>([&](const auto& option) {
         add_option(options, option, option.limits);
-        described.push_back({std::string(option.key), type_name(option), std::string(option.meaning)});
+        described.push_back({std::string(option.key), type_name(option), std::string(option.meaning),
+                             allowed(option.limits)});
     });
     module.def(
         "described_options", [described] { return described; },
         nb::sig("def described_options() -> list[list[str]]"),
-        "The key, the type and the meaning of each option.");
+        "The key, the type, the meaning and the allowed values of each option.");
 }
 
 void add_builder(nb::module_& module) {
@@ -138,8 +149,11 @@ void add_scenes(nb::module_& module) {
             },
             nb::arg("path"), nb::arg("settings"), nb::arg("progress").none())
         .def("name", &Scene::name)
+        .def("path", [](const Scene& scene) { return scene.data().path; })
         .def("sensors", &Scene::sensors)
-        .def("options", &Scene::options);
+        .def("options", &Scene::options)
+        .def_static("parse", &Scene::parse, nb::arg("toml"), nb::arg("directory"),
+                    nb::call_guard<nb::gil_scoped_release>());
     add_builder(module);
     module.def("validate", nb::overload_cast<const Scene&>(&validate), nb::arg("scene"),
                nb::call_guard<nb::gil_scoped_release>());

@@ -11,11 +11,15 @@ docs/python.md is the guide; `help(stilb.Scene)` lists what a scene can do.
 from . import exact, statistics
 from ._stilb import Cancelled, InputError, Progress
 from ._stilb import version as __version__
+from .estimates import Estimate, ResultWarning
+from .files import Fit, fit, read_points
+from .pairs import Pair, PairedReading, paired
 from .parts import *
 from .parts import __all__ as _parts
-from .results import Estimate, Image, Reading, Result
+from .results import Image, Reading, Result, Run
 from .scene import Scene, Section, load
 from .solution import Solution, load_solution
 
-__all__ = ["Cancelled", "Estimate", "Image", "InputError", "Progress", "Reading", "Result", "Scene", "Section",
-           "Solution", "__version__", "exact", "load", "load_solution", "statistics", *_parts]
+__all__ = ["Cancelled", "Estimate", "Fit", "Image", "InputError", "Pair", "PairedReading", "Progress", "Reading", "Result",
+           "ResultWarning", "Run", "Scene", "Section", "Solution", "__version__", "exact", "fit", "load", "load_solution",
+           "paired", "read_points", "statistics", *_parts]

@@ -6,10 +6,12 @@ import textwrap
 from typing import Any, TypedDict
 
 from . import _stilb
+from ._stilb import InputError
 
 __all__ = ["DESCRIPTION", "Limits", "options"]
 
-MEANINGS = {key: meaning for key, _, meaning in _stilb.described_options()}
+DESCRIBED = {key: described for key, *described in _stilb.described_options()}
+MEANINGS = {key: meaning for key, (_, meaning, _) in DESCRIBED.items()}
 DESCRIPTION = "\n".join(
     textwrap.fill(meaning, 124, initial_indent=f"    {key:9} ", subsequent_indent=14 * " ")
     for key, meaning in MEANINGS.items())
@@ -27,5 +29,15 @@ def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options:
     if "paths" in given:
         chosen.error = chosen.time = None
     for name, value in given.items():
-        setattr(chosen, name, value)
+        _set(chosen, name, value)
     return chosen
+
+
+def _set(options: _stilb.Options, name: str, value: Any) -> None:
+    kind, _, allowed = DESCRIBED[name]
+    if kind == "int" and isinstance(value, float) and value.is_integer():
+        value = int(value)  # 1e6, as in scene files
+    try:
+        setattr(options, name, value)
+    except TypeError:
+        raise InputError(f"{name}: {value!r} is not allowed. Allowed: {allowed}.") from None

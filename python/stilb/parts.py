@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from . import _stilb
+from ._meanings import docstring
 from ._names import class_name
 from ._stilb import InputError
 
@@ -29,6 +30,7 @@ class Part:
     section = ""
     type = ""
     type_key = "type"
+    _allowed: tuple[str, ...] = ()  # keys; where it is empty, the reader of scenes decides
 
     def __init__(self, **keys: Any) -> None:
         object.__setattr__(self, "_keys", {key: _kept(value) for key, value in keys.items() if value is not None})
@@ -40,6 +42,10 @@ class Part:
         return self._keys[key]
 
     def __setattr__(self, key: str, value: Any) -> None:
+        if self._allowed and key not in self._allowed:
+            name = type(self).__name__
+            raise InputError(f'{name} has no key "{key}".{_stilb.did_you_mean(key, list(self._allowed))} Allowed: '
+                             f"{', '.join(self._allowed)}.")
         self._keys[key] = _kept(value)
         object.__setattr__(self, "_changes", self._changes + 1)
 
@@ -59,11 +65,8 @@ class Part:
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._keys]
 
-    def __getstate__(self) -> dict[str, Any]:
-        return dict(self._keys)
-
-    def __setstate__(self, keys: dict[str, Any]) -> None:
-        Part.__init__(self, **keys)
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _restored, (type(self), self.section, dict(self._keys))
 
     def to_dict(self) -> dict[str, Any]:
         """The table of a scene file that describes this part."""
@@ -100,6 +103,10 @@ class Sensor(Part):
     section = "sensors"
 
 
+def _restored(kind: type[Part], section: str, keys: dict[str, Any]) -> Part:
+    return _Table(section, keys) if kind is _Table else kind(**keys)
+
+
 def _kept(value: Any) -> Any:
     """A value that cannot be changed in place, so that a part changes by its attributes alone."""
     if isinstance(value, np.ndarray):
@@ -127,8 +134,9 @@ def _make_class(section: str, name: str, keys: list[str]) -> type[Part]:
     parameters = [inspect.Parameter(key, inspect.Parameter.KEYWORD_ONLY, default=None) for key in own]
     return type(class_name(section, name), (base,), {
         "type": name,
+        "_allowed": tuple(own),
         "__module__": "stilb",
-        "__doc__": f'{section}: {base.type_key} = "{name}". Keys: {", ".join(own)} (docs/scene-format.md).',
+        "__doc__": docstring(section, name, own),
         "__signature__": inspect.Signature(parameters),
     })
 
@@ -139,13 +147,12 @@ CLASSES: dict[tuple[str, str], type[Part]] = {
 
 
 class Mesh(CLASSES["objects", "mesh"]):  # type: ignore[misc]
-    """A mesh: of a file (`file="room.obj"`), or of arrays.
-
-    `vertices` (n, 3) are positions [m], `faces` (m, 3) their indices: the front of a triangle is the side from which they
-    run counterclockwise. The arrays are copied.
-    """
-
     __module__ = "stilb"
+    _allowed = ("vertices", "faces", *CLASSES["objects", "mesh"]._allowed)
+    __doc__ = docstring("objects", "mesh", list(_allowed)) + """
+
+    The front of a triangle is the side from which its corners run counterclockwise. Arrays are copied.
+    """
     __signature__ = inspect.Signature([
         inspect.Parameter("vertices", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
         inspect.Parameter("faces", inspect.Parameter.POSITIONAL_OR_KEYWORD, default=None),
@@ -200,6 +207,8 @@ def part_of(section: str, value: Any, name: str) -> Part:
     keys = dict(value)
     base = BASES[section]
     kind = CLASSES.get((section, keys.pop(base.type_key, "")))
+    if all(isinstance(keys.get(key), np.ndarray) for key in ("vertices", "faces")):
+        kind = Mesh
     return kind(**keys) if kind else _Table(section, dict(value))
 
 

@@ -25,15 +25,15 @@ def plot_grid(reading: Reading, axes: Axes | None, **style: Any) -> Axes:
     axes = _axes_or_new(axes)
     rows, columns = reading.value.shape
     position = reading.position
-    width = columns * _step(position[0])
-    height = rows * _step(position[:, 0])
+    width = columns * step(position[0])
+    height = rows * step(position[:, 0])
     shown = axes.imshow(reading.value, **{"origin": "lower", "extent": (0, width, 0, height), **style})
     axes.figure.colorbar(shown, ax=axes, label=f"{reading.quantity} [{reading.unit}]")
     axes.set(title=reading.name, xlabel="along edge_u [m]", ylabel="along edge_v [m]")
     return axes
 
 
-def _step(positions: np.ndarray[Any, Any]) -> float:
+def step(positions: np.ndarray[Any, Any]) -> float:
     """The distance of neighbours in a row of positions; 1 where there is one only."""
     return float(np.linalg.norm(positions[1] - positions[0])) if len(positions) > 1 else 1.0
 

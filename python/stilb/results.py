@@ -4,45 +4,32 @@ from __future__ import annotations
 
 import os
 import tempfile
-from collections.abc import Iterator, Mapping
+import uuid
+import warnings
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from html import escape
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
-from . import _stilb
+from . import _stilb, program
+from .estimates import Errors, Estimate, Numbers, ResultWarning, RunKey
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
+    import xarray
 
-__all__ = ["Estimate", "Image", "Reading", "Result"]
-
-Numbers = NDArray[np.float64]
-
-
-class Estimate:
-    """A number with its standard error and its 95 % interval."""
-
-    def __init__(self, estimate: _stilb.Estimate, unit: str = "") -> None:
-        self.value = estimate.value
-        self.standard_error = estimate.standard_error
-        self.interval = (estimate.lower, estimate.upper)
-        self.unit = unit
-
-    def __float__(self) -> float:
-        return self.value
-
-    def __repr__(self) -> str:
-        low, high = self.interval
-        return f"{with_error(self.value, (high - low) / 2)} {self.unit}".rstrip()
+__all__ = ["Image", "Reading", "Result", "Run"]
 
 
 class Run:
     """The common part of all results."""
+
+    _samples = "paths"
 
     def __init__(self, run: _stilb.Summary) -> None:
         self._run = run
@@ -79,6 +66,12 @@ class Run:
         return self._run.elapsed_s
 
     @property
+    def stopped(self) -> str:
+        """What ended the run: "target reached", "requirements decided", "paths done", "time over", "interrupted" or
+        "patches too coarse"."""
+        return self._run.stopped
+
+    @property
     def converged(self) -> bool:
         """False where the error asked for was not reached, or the run was interrupted."""
         return self._run.converged
@@ -98,8 +91,33 @@ class Run:
         """The kind of each warning, such as "holes" or "rare-light", for programs: sentences may change."""
         return self._run.warning_kinds
 
+    def __repr__(self) -> str:
+        return f"<stilb.Run: {self._ending()}>"
+
     def _ending(self) -> str:
-        return f"{self.method}, {self.paths} paths in {self.elapsed_s:.2f} s, error {100 * self.error:.2g} %"
+        technique = f" ({self.technique})" if self.technique != self.method else ""
+        return (f"{self.method}{technique}, {self.paths} {self._samples} in {self.elapsed_s:.2f} s, error "
+                f"{100 * self.error:.2g} %; {self._convergence()}")
+
+    def _convergence(self) -> str:
+        return f"{'converged' if self.converged else 'NOT converged'}: {self.stopped}"
+
+    def _notes(self) -> list[str]:
+        """The warnings, and why the run did not converge."""
+        return self.warnings if self.converged else [*self.warnings, self._shortfall()]
+
+    def _shortfall(self) -> str:
+        wanted = self._run.requested_error
+        if wanted is not None and not self.error <= wanted:
+            return (f"The requested error of {100 * wanted:g} % is not reached: the error is {100 * self.error:.2g} %. The "
+                    f"run ended by: {self.stopped}.")
+        return f"The run ended before its goal: {self.stopped}."
+
+
+def warn_of(run: Run, level: int = 4) -> None:
+    """Python warnings of what is odd about a result. `level`: of the user's call in the stack."""
+    for text in run._notes():
+        warnings.warn(text, ResultWarning, stacklevel=level)
 
 
 class Reading:
@@ -107,11 +125,15 @@ class Reading:
 
     The arrays have the shape (nv, nu) for grids, row by row along edge_v; (n,) for points, lines of sight and others;
     that of the given points for `Scene.illuminance` and `Scene.luminance`. They cannot be changed: `desk.value.copy()`.
+
+    A reading is an array, too, that of its values: `np.asarray(desk)`, `desk[0, 1]`, `desk.shape`, `len(desk)`.
     """
 
-    def __init__(self, sensor: _stilb.SensorResult, run: _stilb.Summary, shape: tuple[int, ...] | None = None) -> None:
+    def __init__(self, sensor: _stilb.SensorResult, run: _stilb.Summary, key: RunKey,
+                 shape: tuple[int, ...] | None = None) -> None:
         self._sensor = sensor
         self._run = run
+        self._key = key
         columns, rows = sensor.count
         self._shape = shape if shape is not None else (rows, columns) if rows else sensor.value.shape
 
@@ -156,6 +178,16 @@ class Reading:
         return self._shaped(self._sensor.standard_error)
 
     @property
+    def replicates(self) -> Numbers:
+        """The values in each of the R independent replicates, (R, ...): the basis of all errors.
+
+        The standard error of any function of readings is the standard deviation of its values in the replicates over
+        sqrt(R), where it is nearly linear. Rows of runs with the same seed and number of paths belong together.
+        """
+        replicates = self._sensor.replicates
+        return replicates.reshape(replicates.shape[:1] + self._shape)
+
+    @property
     def rgb(self) -> Numbers:
         """Linear Rec. 709, in the sensor's unit, (..., 3); its luminance is the value."""
         return self._shaped(self._sensor.rgb)
@@ -185,27 +217,27 @@ class Reading:
     @cached_property
     def mean(self) -> Estimate:
         """The mean of the readings."""
-        return Estimate(self._sensor.mean, self.unit)
+        return self._statistic("mean", self.unit)
 
     @cached_property
     def minimum(self) -> Estimate:
         """The smallest reading."""
-        return Estimate(self._sensor.minimum, self.unit)
+        return self._statistic("minimum", self.unit)
 
     @cached_property
     def maximum(self) -> Estimate:
         """The largest reading."""
-        return Estimate(self._sensor.maximum, self.unit)
+        return self._statistic("maximum", self.unit)
 
     @cached_property
     def uniformity(self) -> Estimate:
         """The smallest reading over the mean."""
-        return Estimate(self._sensor.uniformity)
+        return self._statistic("uniformity", "")
 
     @cached_property
     def diversity(self) -> Estimate:
         """The smallest reading over the largest one."""
-        return Estimate(self._sensor.diversity)
+        return self._statistic("diversity", "")
 
     @property
     def requirements(self) -> dict[str, tuple[float, str]]:
@@ -218,19 +250,18 @@ class Reading:
         return {item.key: item.reason for item in self._sensor.requirements if item.reason}
 
     def to_pandas(self) -> pandas.DataFrame:
-        """A table with a row for each reading: position [m], direction, value, standard error and 95 % interval."""
-        import pandas
+        """A table with a row for each reading: position [m], direction, value, standard error and 95 % interval. Needs
+        pandas."""
+        from . import tables
 
-        sensor = self._sensor
-        columns = {axis: sensor.position[:, i] for i, axis in enumerate("xyz")}
-        columns |= {f"direction_{axis}": sensor.direction[:, i] for i, axis in enumerate("xyz")}
-        columns |= {"value": sensor.value, "standard_error": sensor.standard_error, "lower": sensor.lower,
-                    "upper": sensor.upper}
-        table = pandas.DataFrame(columns)
-        if self._is_grid():
-            table.index = pandas.MultiIndex.from_product([range(self._shape[0]), range(self._shape[1])], names=["v", "u"])
-        table.attrs = {"name": self.name, "quantity": self.quantity, "unit": self.unit}
-        return table
+        return tables.table(self)
+
+    def to_xarray(self) -> xarray.Dataset:
+        """Values, standard errors, ends of the 95 % intervals and colours, with x, y and z [m]. The axes of a grid, v and u,
+        are metres along its edges, at the middles of the cells; those of other readings count. Needs xarray."""
+        from . import tables
+
+        return tables.dataset(self)
 
     def plot(self, axes: matplotlib.axes.Axes | None = None, **style: Any) -> matplotlib.axes.Axes:
         """Draws a grid in colours, and other readings with their 95 % intervals. Needs matplotlib; returns the axes."""
@@ -238,19 +269,41 @@ class Reading:
 
         return plots.plot_grid(self, axes, **style) if self._is_grid() else plots.plot_readings(self, axes, **style)
 
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the values."""
+        return self._shape
+
+    @property
+    def size(self) -> int:
+        """The number of readings."""
+        return self._sensor.value.size
+
     def __len__(self) -> int:
-        return len(self._sensor.value)
+        return len(self.value)
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.value[index]
+
+    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.value, dtype) if copy else np.asarray(self.value, dtype)
 
     def __repr__(self) -> str:
-        return f"<{self.name}: {self._text()}>"
+        return f"<{self.name}: {self._text()}; {self.run._convergence()}>"
 
     def _repr_html_(self) -> str:
-        return _html_table([self])
+        return _html_table([self]) + _html_notes(self.run)
 
     def _text(self) -> str:
-        if len(self) == 1:
-            return str(Estimate(self._sensor.mean, self.unit))
+        if self.size == 1:
+            return str(self.mean)
         return f"{' x '.join(map(str, self._shape))} readings, mean {self.mean}"
+
+    def _statistic(self, name: str, unit: str) -> Estimate:
+        sensor, key = self._sensor, self._key
+        estimate: _stilb.Estimate = getattr(sensor, name)
+        return Estimate(estimate.value, estimate.standard_error, (estimate.lower, estimate.upper), unit,
+                        lambda: Errors.of_statistic(estimate, key, f"{sensor.name}.{name}", np.array(sensor.residuals(name))))
 
     def _is_grid(self) -> bool:
         return self._sensor.count[1] > 0
@@ -274,10 +327,15 @@ class Reading:
 class Result(Run, Mapping[str, Reading]):
     """The readings of all sensors: `result["desk"]`, in the order of the scene."""
 
-    def __init__(self, result: _stilb.Result) -> None:
-        super().__init__(result)
+    def __init__(self, result: _stilb.Result, token: str | None = None) -> None:
+        """`token`: of the same result, where it is made again."""
+        super().__init__(result.summary())
         self._result = result
-        self._readings = {sensor.name: Reading(sensor, result) for sensor in result.sensors}
+        self._key = RunKey(token or uuid.uuid4().hex, result.seed, result.confidence)
+        self._readings = {sensor.name: Reading(sensor, self._run, self._key) for sensor in result.sensors}
+
+    def __reduce__(self) -> tuple[Callable[..., Result], tuple[Any, ...]]:
+        return Result, (self._result, self._key.token)
 
     def __getitem__(self, sensor: str) -> Reading:
         if sensor not in self._readings:
@@ -290,23 +348,64 @@ class Result(Run, Mapping[str, Reading]):
     def __len__(self) -> int:
         return len(self._readings)
 
+    def covariance(self, first: str, second: str | None = None) -> Numbers:
+        """The covariances of the values of two sensors, or of one: (n, m) for n and m readings in the order of
+        `value.ravel()`, in the product of their units.
+
+        They come from the R replicates. The root of the diagonal of covariance("desk") is the standard error, except for
+        large grids, where standard errors are smoothed over neighbours.
+        """
+        columns = [self[name]._sensor.replicates for name in (first, second or first)]
+        a, b = (column - column.mean(0) for column in columns)
+        return np.asarray(a.T @ b / (len(a) * (len(a) - 1)))
+
     def to_json(self) -> str:
         """The document of `stilb measure --json` (docs/json.md)."""
-        return self._result.json
+        return self._result.json()
+
+    def to_pandas(self) -> pandas.DataFrame:
+        """A table with a row for each reading of all sensors: those of `Reading.to_pandas()`, with the sensor's name and
+        the number of the reading as index, and quantity and unit. Needs pandas."""
+        from . import tables
+
+        return tables.table_of_all(self)
+
+    def falsecolor(self, path: str | os.PathLike[str], *, sensors: Sequence[str] | None = None, log: bool = False,
+                   minimum: float | None = None, maximum: float | None = None, isolines: bool = False, numbers: bool = False,
+                   errors: bool = False) -> None:
+        """Draws grids and areas in false colours, as .png or .svg, at one scale of metres and one of colours. The program
+        `stilb`, which is installed with the package, does this.
+
+        sensors   names of the grids (default: all)
+        log       a logarithmic scale
+        minimum   lower end of the scale (default: a round number); likewise `maximum`
+        isolines  labelled lines of equal value
+        numbers   the value of each cell
+        errors    half of the 95 % intervals, after a ±
+        """
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "result.json"
+            file.write_text(self.to_json(), encoding="utf-8")
+            names = [self[name].name for name in sensors or []]
+            program.run("falsecolor", file, output=program.absolute(path), sensor=names, log=log, min=minimum, max=maximum,
+                        isolines=isolines, numbers=numbers, errors=errors)
 
     def __repr__(self) -> str:
-        return "\n".join([*(f"{name}: {reading._text()}" for name, reading in self.items()), self._ending()])
+        return "\n".join([*(f"{name}: {reading._text()}" for name, reading in self.items()), self._ending(),
+                          *(f"Warning: {text}" for text in self._notes())])
 
     def _repr_html_(self) -> str:
-        return _html_table(list(self.values())) + f"<p>{escape(self._ending())}</p>"
+        return _html_table(list(self.values())) + f"<p>{escape(self._ending())}</p>" + _html_notes(self)
 
     def _only(self, shape: tuple[int, ...]) -> Reading:
         """The only sensor's readings in another shape."""
-        return Reading(self._result.sensors[0], self._result, shape)
+        return Reading(self._result.sensors[0], self._run, self._key, shape)
 
 
 class Image(Run):
     """A luminance picture. The arrays begin with the top row, and share the memory of the C++ library."""
+
+    _samples = "passes"
 
     def __init__(self, picture: _stilb.Picture) -> None:
         super().__init__(picture)
@@ -327,9 +426,28 @@ class Image(Run):
         """Linear Rec. 709 [cd/m2], (h, w, 3)."""
         return self._picture.rgb
 
+    @property
+    def depth(self) -> NDArray[np.float32]:
+        """The distance from the camera [m] of the surface in each pixel's middle, (h, w); NaN where there is none."""
+        return self._picture.depth
+
+    @property
+    def normals(self) -> NDArray[np.float32]:
+        """The unit normals of the same surfaces, in the scene's coordinates, (h, w, 3); NaN where there is none."""
+        return self._picture.normals
+
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes OpenEXR, Radiance or PNG, by the ending: .exr, .hdr, .png (docs/pictures.md)."""
         self._picture.save(Path(path))
+
+    def falsecolor(self, path: str | os.PathLike[str], *, log: bool = False, minimum: float | None = None,
+                   maximum: float | None = None, isolines: bool = False, numbers: bool = False) -> None:
+        """Draws the luminance in false colours, as .png or .svg: as `Result.falsecolor`, by the program."""
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "picture.exr"
+            self.save(file)
+            program.run("falsecolor", file, output=program.absolute(path), log=log, min=minimum, max=maximum,
+                        isolines=isolines, numbers=numbers)
 
     def plot(self, axes: matplotlib.axes.Axes | None = None, **style: Any) -> matplotlib.axes.Axes:
         """Draws the luminance in false colours, with a logarithmic scale. Needs matplotlib; returns the axes."""
@@ -347,16 +465,6 @@ class Image(Run):
             return path.read_bytes()
 
 
-def with_error(value: float, half_width: float) -> str:
-    """The value with as many digits as two digits of its error have: 494.3 ± 1.1."""
-    if not np.isfinite(half_width) or half_width <= 0 or not np.isfinite(value):
-        return f"{value:.6g}"
-    digits = 1 - int(np.floor(np.log10(half_width)))
-    if digits < 0:
-        value, half_width, digits = round(value, digits), round(half_width, digits), 0
-    return f"{value:.{digits}f} ± {half_width:.{digits}f}"
-
-
 def _html_table(readings: list[Reading]) -> str:
     head = "".join(f"<th>{title}</th>" for title in ("sensor", "quantity", "readings", "mean", "minimum", "maximum"))
     rows = [f"<tr><th>{escape(reading.name)}</th><td>{reading.quantity}</td>"
@@ -364,3 +472,10 @@ def _html_table(readings: list[Reading]) -> str:
             f"<td>{escape(str(reading.minimum))}</td><td>{escape(str(reading.maximum))}</td></tr>"
             for reading in readings]
     return f"<table><thead><tr>{head}</tr></thead><tbody>{''.join(rows)}</tbody></table>"
+
+
+def _html_notes(run: Run) -> str:
+    """How the run ended where that was before its goal, and its warnings."""
+    head = [] if run.converged else [run._convergence()]
+    return "".join(f"<p><b>{escape(text)}</b></p>" for text in head) + "".join(
+        f"<p>Warning: {escape(text)}</p>" for text in run._notes())

@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+import copy
 import os
+import tempfile
 import tomllib
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, MutableMapping
 from pathlib import Path
-from typing import Any, TypedDict, Unpack
+from typing import Any, TypedDict, TypeVar, Unpack
 
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _stilb
+from . import _stilb, program
 from ._stilb import InputError
+from .estimates import ResultWarning
 from .options import DESCRIPTION, Limits, options
 from .parts import Mesh, Part, part_of
-from .progress import Progress, sink_of
-from .results import Image, Reading, Result
+from .progress import Progress, called
+from .results import Image, Reading, Result, Run, warn_of
 from .solution import Solution
+from .toml import document_text, value_text
 
 __all__ = ["Scene", "Section", "load"]
 
@@ -91,7 +96,10 @@ class Scene:
     progress  True for a line on stderr, or a function that gets a `stilb.Progress` and may return False to end the run
               with its result so far
 
-    Ctrl-C ends a run with KeyboardInterrupt. Other Python threads go on during a run.
+    Ctrl-C ends a run with KeyboardInterrupt, whose attribute `result` has the result so far (or None). Other Python threads
+    go on during a run. Warnings of a run, and that it did not converge, are Python warnings (`stilb.ResultWarning`).
+
+    Scenes can be copied and pickled. A copy has parts of its own.
     """
 
     def __init__(self, name: str = "") -> None:
@@ -101,12 +109,14 @@ class Scene:
         self._path: Path | None = None
         self._directory = Path(".")
         self._sections = {section: Section(section) for section in SECTIONS}
-        self._base: _stilb.Scene | None = None
+        self._settings: list[str] = []  # with which the file was read
+        self._base: _stilb.Scene | None = None  # a file of another format
         self._built: _stilb.Scene | None = None
         self._built_state: Any = None
 
     @classmethod
-    def load(cls, path: str | os.PathLike[str], *, progress: Progress = None, **settings: Unpack[ImportSettings]) -> Scene:
+    def load(cls, path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, progress: Progress = None,
+             **settings: Unpack[ImportSettings]) -> Scene:
         """Reads a scene file, or a scene of another program. Errors name file, line and key.
 
         The parts of a file that is not TOML (glTF, OBJ, Radiance) stay as they are; others can be added to them. How it is
@@ -116,23 +126,104 @@ class Scene:
         up           the axis of the file that points upwards: "y", "z" or "auto"
         light_scale  a factor on all light
         textures     True: surfaces show the textures of their base colours; False: the mean of each counts
+        set          other values for keys, as --set of the command line: {"materials.wall.reflectance": 0.5}
         progress     as in runs: help(stilb.Scene)
         """
-        scene = cls()
-        scene._path = Path(path)
-        scene._directory = scene._path.parent
-        scene._built = _stilb.Scene.load(scene._path, [_setting(key, value) for key, value in settings.items()],
-                                         sink_of(progress))
-        scene.name = scene._built.name()
-        document = _toml_document(scene._path)
-        if document is None:
-            scene._base = scene._built
-        else:
-            scene.run = document.get("run", {})
-            scene.defaults = document.get("defaults", {})
-            scene._sections = {section: Section(section, document.get(section)) for section in SECTIONS}
-        scene._built_state = scene._state()
+        chosen = {f"import.{key}": value for key, value in settings.items()} | dict(set or {})
+        texts = [f"{key}={value_text(value)}" for key, value in chosen.items()]
+        return called(progress, lambda sink: _stilb.Scene.load(Path(path), texts, sink),
+                      lambda read: cls._of_file(read, texts, set or {}))
+
+    @classmethod
+    def parse(cls, text: str, directory: str | os.PathLike[str] = ".") -> Scene:
+        """Reads a scene from the text of a scene file. Names of files in it are relative to `directory`."""
+        built = _stilb.Scene.parse(text, Path(directory))
+        scene = cls.from_dict(tomllib.loads(text), directory)
+        scene._keep(built)
         return scene
+
+    @classmethod
+    def from_dict(cls, document: Mapping[str, Any], directory: str | os.PathLike[str] = ".") -> Scene:
+        """The scene of a document such as `to_dict` returns, and as scene files have. Its parts are checked when the scene
+        is used. Names of files are relative to `directory`."""
+        for section, content in document.items():
+            _require_section(section)
+            if not isinstance(content, Mapping):
+                raise InputError(f"{section}: found a value of type {type(content).__name__}. Allowed: a dictionary.")
+        scene = cls(document.get("scene", {}).get("name", ""))
+        scene._directory = Path(directory)
+        scene.run = copy.deepcopy(dict(document.get("run", {})))
+        scene.defaults = copy.deepcopy(dict(document.get("defaults", {})))
+        scene._sections = {section: Section(section, document.get(section)) for section in SECTIONS}
+        return scene
+
+    @classmethod
+    def _of_file(cls, read: _stilb.Scene, settings: list[str], set: Mapping[str, Any]) -> Scene:
+        path = Path(read.path())
+        document = _toml_document(path)
+        scene = cls(read.name()) if document is None else cls.from_dict(document, path.parent)
+        scene._path = path
+        scene._directory = path.parent
+        scene._settings = settings
+        if document is None:
+            scene._base = read
+        else:
+            for key, value in set.items():
+                scene.set(key, value)
+        scene._keep(read)
+        return scene
+
+    def set(self, key: str, value: Any) -> None:
+        """Sets a key by its full name, as --set of the command line does: `scene.set("materials.wall.reflectance", 0.5)`.
+
+        The value of `materials.wall` is a part, or a dictionary with the keys of a scene file. Names with dots need quotes.
+        """
+        first, *names = _names(key)
+        _require_section(first)
+        if first == "scene" and names == ["name"]:
+            self.name = value
+        elif first in ("run", "defaults") and names:
+            setattr(self, first, _with(getattr(self, first), names, value))
+        elif first in SECTIONS and len(names) == 1:
+            self._sections[first][names[0]] = value
+        elif first in SECTIONS and names:
+            name, attribute, *inner = names
+            if name not in self._sections[first]:
+                known = list(self._sections[first])
+                raise InputError(f'{key}: there is no "{name}" in {first}.{_stilb.did_you_mean(name, known)} Allowed: '
+                                 f"{', '.join(known) or 'none'}.")
+            part = self._sections[first][name]
+            try:
+                setattr(part, attribute, _with(getattr(part, attribute, {}), inner, value) if inner else value)
+            except InputError as error:
+                raise InputError(f"{key}: {error}") from None
+        else:
+            raise InputError(f"{key}: there is no such key. Allowed: names such as materials.wall.reflectance.")
+
+    def __copy__(self) -> Scene:
+        """A scene with parts of its own."""
+        made = Scene(self.name)
+        made.__dict__.update(self.__dict__)
+        made.run, made.defaults = copy.deepcopy(self.run), copy.deepcopy(self.defaults)
+        made._sections = copy.deepcopy(self._sections)
+        if self._built is not None and self._state() == self._built_state:
+            made._built_state = made._state()
+        else:
+            made._built = None
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Scene:
+        return copy.copy(self)
+
+    def __getstate__(self) -> dict[str, Any]:
+        """What other processes, and other working directories, can make the scene of."""
+        own = {"_base": self._base is not None, "_built": None, "_built_state": None,
+               "_directory": self._directory.absolute()}
+        return {**self.__dict__, **own, "_path": self._path and self._path.absolute()}
+
+    def __setstate__(self, state: dict[str, Any]) -> None:
+        self.__dict__.update(state)
+        self._base = _stilb.Scene.load(state["_path"], state["_settings"], None) if state["_base"] else None
 
     @property
     def materials(self) -> Section:
@@ -161,8 +252,12 @@ class Scene:
     def measure(self, *, sensors: Iterable[str] | None = None, progress: Progress = None, **limits: Unpack[Limits]) -> Result:
         """Measures all sensors but cameras, or those of these names. `limits`: see `help(stilb.Scene)`."""
         scene = self._scene()
-        names = [sensors] if isinstance(sensors, str) else list(sensors or [])
-        return Result(_stilb.measure(scene, options(scene, limits), names, sink_of(progress)))
+        names = [] if sensors is None else [sensors] if isinstance(sensors, str) else list(sensors)
+        if sensors is not None and not names:
+            raise InputError(f"sensors: the list is empty. Allowed: names of sensors ({', '.join(scene.sensors())}); None for "
+                             "all.")
+        chosen = options(scene, limits)
+        return _warned(called(progress, lambda sink: _stilb.measure(scene, chosen, names, sink), Result))
 
     def illuminance(self, points: ArrayLike, normals: ArrayLike, *, progress: Progress = None, **limits: Unpack[Limits]) -> Reading:
         """The illuminance [lx] on surface elements anywhere in the scene.
@@ -180,12 +275,42 @@ class Scene:
     def render(self, camera: str = "", *, progress: Progress = None, **limits: Unpack[Limits]) -> Image:
         """A luminance picture; the camera's name may be left out where the scene has one only."""
         scene = self._scene()
-        return Image(_stilb.render(scene, camera, options(scene, limits), sink_of(progress)))
+        chosen = options(scene, limits)
+        return _warned(called(progress, lambda sink: _stilb.render(scene, camera, chosen, sink), Image))
 
     def solve(self, *, progress: Progress = None, **limits: Unpack[Limits]) -> Solution:
         """The light on all surfaces, from which pictures of all cameras with other lamps are made."""
         scene = self._scene()
-        return Solution(_stilb.solve(scene, options(scene, limits), sink_of(progress)))
+        chosen = options(scene, limits)
+        solved = copy.copy(self)
+        return _warned(called(progress, lambda sink: _stilb.solve(scene, chosen, sink),
+                              lambda solution: Solution(solution, solved)))
+
+    def export(self, folder: str | os.PathLike[str], format: str) -> list[Path]:
+        """Writes the scene, its points and its views for "mitsuba" or "radiance" (docs/export.md). Returns the files; what
+        has no equal in the other program is warned of."""
+        written = _stilb.export_scene(self._scene(), format, Path(folder))
+        for text in written.warnings:
+            warnings.warn(text, ResultWarning, stacklevel=2)
+        return written.files
+
+    def report(self, path: str | os.PathLike[str], *, sensors: Iterable[str] | None = None, readings: bool = False,
+               view_time: float | None = None, view_passes: int | None = None, **limits: Unpack[Limits]) -> None:
+        """Measures the sensors, renders the cameras, and writes a page for clients (.html, docs/report.md). The program
+        `stilb`, which is installed with the package, does this.
+
+        `sensors`: names of sensors and cameras; all by default. `readings`: whether the page lists all of them. `view_time`
+        [s] or `view_passes`: of each camera (default: 60 s). `limits`: of the readings, see `help(stilb.Scene)`.
+        """
+        options(self._scene(), limits)  # for its messages
+        with tempfile.TemporaryDirectory() as folder:
+            file, settings = Path(folder) / "scene.toml", list[str]()
+            if self._path is not None and self._scene().path() == self._path:  # as it was read
+                file, settings = self._path, self._settings
+            else:
+                copy.copy(self).save(file)
+            program.run("report", file, output=program.absolute(path), set=settings, sensor=list(sensors or []),
+                        readings=readings, view_time=view_time, view_passes=view_passes, quiet=True, **limits)
 
     def to_dict(self) -> dict[str, Any]:
         """The document of the scene file."""
@@ -200,18 +325,21 @@ class Scene:
         return document
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a scene file (TOML), which is the scene's own from now on. It needs the package tomli-w."""
-        import tomli_w
-
+        """Writes a scene file (TOML), which is the scene's own from now on."""
         file = Path(path)
-        document = _plain(self.to_dict(), lambda name: _moved(name, self._directory, file.parent))
-        file.write_text(tomli_w.dumps(document), encoding="utf-8")
+        document = _relocated(self.to_dict(), lambda name: _moved(name, self._directory, file.parent))
+        file.write_text(document_text(document), encoding="utf-8")
         loaded = Scene.load(file)
         self.__dict__.update(loaded.__dict__)
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(parts)} {section}" for section, parts in self._sections.items())
         return f"<stilb.Scene {self.name!r}: {counts}{f' added to {self._path}' if self._base else ''}>"
+
+    def _keep(self, built: _stilb.Scene) -> None:
+        """`built`: the scene as it is now."""
+        self._built = built
+        self._built_state = self._state()
 
     def _state(self) -> Any:
         parts = tuple(section._state() for section in self._sections.values())
@@ -246,21 +374,55 @@ class Scene:
                progress: Progress, limits: Limits) -> Reading:
         points, rays = _rays(positions, directions)
         scene = self._scene()
-        result = measure(scene, rays, options(scene, limits), sink_of(progress))
-        return Result(result)._only(points.shape[:-1])
+        chosen = options(scene, limits)
+        reading = called(progress, lambda sink: measure(scene, rays, chosen, sink),
+                         lambda result: Result(result)._only(points.shape[:-1]))
+        warn_of(reading.run)
+        return reading
 
 
-def load(path: str | os.PathLike[str], *, progress: Progress = None, **settings: Unpack[ImportSettings]) -> Scene:
+Ended = TypeVar("Ended", bound=Run)
+
+
+def _warned(run: Ended) -> Ended:
+    warn_of(run)
+    return run
+
+
+def load(path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, progress: Progress = None,
+         **settings: Unpack[ImportSettings]) -> Scene:
     """Reads a scene from a file: `help(stilb.Scene.load)`.
 
-    `settings` are `scale`, `up`, `light_scale` and `textures` of scenes of other programs.
+    `set` has other values for keys: {"materials.wall.reflectance": 0.5}. `settings` are `scale`, `up`, `light_scale` and
+    `textures` of scenes of other programs.
     """
-    return Scene.load(path, progress=progress, **settings)
+    return Scene.load(path, set=set, progress=progress, **settings)
 
 
-def _setting(key: str, value: Any) -> str:
-    """As on the command line."""
-    return f"import.{key}={str(value).lower() if isinstance(value, bool) else value}"
+def _names(key: str) -> list[str]:
+    """The names that the dots of a key separate."""
+    try:
+        inner: Any = tomllib.loads(f"{key} = 0")
+    except tomllib.TOMLDecodeError:
+        raise InputError(f"{key}: this is no key. Allowed: names such as materials.wall.reflectance.") from None
+    names = []
+    while isinstance(inner, dict):
+        ((name, inner),) = inner.items()
+        names.append(name)
+    return names
+
+
+def _with(table: Mapping[str, Any], names: list[str], value: Any) -> dict[str, Any]:
+    """The table with another value for a key in it, or in a table in it."""
+    first, *others = names
+    inner = table.get(first, {})
+    return {**table, first: _with(inner if isinstance(inner, Mapping) else {}, others, value) if others else value}
+
+
+def _require_section(section: str) -> None:
+    known = ["scene", "defaults", "run", *SECTIONS]
+    if section not in known:
+        raise InputError(f'unknown section "{section}".{_stilb.did_you_mean(section, known)} Allowed: {", ".join(known)}.')
 
 
 def _toml_document(path: Path) -> dict[str, Any] | None:
@@ -287,14 +449,10 @@ def _moved(file: str, old: Path, new: Path) -> str:
     return file if os.path.isabs(file) else Path(os.path.relpath(old / file, new)).as_posix()
 
 
-def _plain(value: Any, move: Callable[[str], str], key: str = "") -> Any:
-    """The value in types of TOML, with the names of files moved."""
+def _relocated(value: Any, move: Callable[[str], str], key: str = "") -> Any:
+    """The value with the names of files moved."""
     if isinstance(value, Mapping):
-        return {name: _plain(inner, move, name) for name, inner in value.items()}
-    if isinstance(value, np.ndarray | np.generic):
-        return value.tolist()
-    if isinstance(value, list | tuple):
-        return [_plain(inner, move) for inner in value]
-    if isinstance(value, os.PathLike):
-        value = os.fspath(value)
-    return move(value) if key in ("file", "geometry") and isinstance(value, str) else value
+        return {name: _relocated(inner, move, name) for name, inner in value.items()}
+    if key in ("file", "geometry") and isinstance(value, str | os.PathLike):
+        return move(os.fspath(value))
+    return value

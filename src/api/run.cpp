@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "api/scene_data.h"
+#include "api/stored.h"
 #include "base/version.h"
 #include "base/warning.h"
 #include "io/image/picture_file.h"
@@ -58,7 +59,9 @@ Summary summary(const RunSummary& run, std::span<const Warning> of_file) {
                     .samples = run.samples,
                     .replicates = run.replicates,
                     .elapsed_s = run.elapsed_s,
+                    .stopped = std::string(run::kStopReasonNames[static_cast<std::size_t>(run.stop_reason)]),
                     .converged = run.converged,
+                    .requested_error = run.requested_error,
                     .attained_error = run.attained_error,
                     .warnings = {},
                     .warning_kinds = {}};
@@ -80,7 +83,7 @@ Ray ray_of(const Measurand& measurand) {
             location.directions.empty() ? kNowhere : triple(location.directions.front().value)};
 }
 
-SensorResult sensor_result(const run::SensorResult& measured) {
+SensorResult sensor_result(run::SensorResult& measured) {
     const Sensor& sensor = measured.sensor;
     SensorResult result{.name = sensor.name,
                         .type = std::string(sensor.type()),
@@ -94,7 +97,8 @@ SensorResult sensor_result(const run::SensorResult& measured) {
                         .uniformity = estimate(measured.summary.uniformity),
                         .attained_error = measured.attained_error,
                         .diversity = estimate(measured.summary.diversity),
-                        .requirements = {}};
+                        .requirements = {},
+                        .replicates = std::move(measured.replicate_means)};
     for (const auto& [requirement, verdict, reason] : measured.requirements) {
         result.requirements.push_back({std::string(requirement.criterion->key), requirement.limit,
                                        static_cast<Verdict>(verdict), reason});
@@ -120,6 +124,18 @@ const SensorResult& Result::operator[](std::string_view sensor) const {
         fmt::format("there is no result of a sensor \"{}\". Allowed: {}.", sensor, fmt::join(names, ", ")));
 }
 
+std::string Result::json() const {
+    if (const auto* const text = std::get_if<std::string>(&data->document)) return *text;
+    const auto& [run, scene] = std::get<Data::Source>(data->document);
+    return io::to_json(run, scene);
+}
+
+Result restored_result(const Summary& summary, std::vector<SensorResult> sensors, double confidence,
+                       std::string json) {
+    return {summary, std::move(sensors), confidence,
+            std::make_shared<const Result::Data>(Result::Data{std::move(json)})};
+}
+
 namespace {
 
 Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
@@ -129,8 +145,10 @@ Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
     RunResult run =
         run::measure(scene.data().prepared, sensors, run_options(scene, options), &sink, control.interrupt);
     run.warnings.insert(run.warnings.begin(), file.warnings.begin(), file.warnings.end());
-    Result result{summary(run, {}), {}, io::to_json(run, scene.data().path.string())};
+    Result result{summary(run, {}), {}, run.confidence, {}};
     std::ranges::transform(run.sensors, std::back_inserter(result.sensors), sensor_result);
+    result.data = std::make_shared<const Result::Data>(
+        Result::Data{Result::Data::Source{std::move(run), scene.data().path.string()}});
     return result;
 }
 
@@ -180,14 +198,24 @@ Result luminance(const Scene& scene, std::span<const Ray> sights, const std::opt
     return measure_sensors(scene, {Sensor{"luminance", std::move(lines)}}, options, control);
 }
 
-struct Picture::Data {
-    io::Picture picture;
-    scene::WhiteRange white;
-};
-
 namespace {
 
 /// `white`: that of the light in the picture.
+Picture picture_of(const Summary& summary, io::Picture pixels, const scene::WhiteRange& white) {
+    Picture picture;
+    static_cast<Summary&>(picture) = summary;
+    picture.width = pixels.width;
+    picture.height = pixels.height;
+    picture.rgb_cd_m2 = pixels.rgb_cd_m2;
+    picture.standard_error_cd_m2 = pixels.standard_error_cd_m2;
+    picture.depth_m = pixels.depth_m;
+    picture.normals = pixels.normals;
+    for (std::size_t pixel = 0; pixel < pixels.pixel_count(); ++pixel)
+        picture.luminance_cd_m2.push_back(static_cast<float>(pixels.luminance_cd_m2(pixel)));
+    picture.data = std::make_shared<const Picture::Data>(Picture::Data{std::move(pixels), white});
+    return picture;
+}
+
 Picture to_picture(const RenderResult& rendered, const Scene& scene, const Sensor& camera,
                    const scene::WhiteRange& white) {
     io::PictureOrigin origin;
@@ -197,22 +225,20 @@ Picture to_picture(const RenderResult& rendered, const Scene& scene, const Senso
     origin.method = rendered.method;
     origin.seed = rendered.seed;
     origin.version = program_version();
-    Picture picture;
-    static_cast<Summary&>(picture) = summary(rendered, scene.data().file.warnings);
-    picture.data = std::make_shared<const Picture::Data>(
-        Picture::Data{io::picture_of(rendered, *camera.camera(), origin), white});
-    const io::Picture& pixels = picture.data->picture;
-    picture.width = pixels.width;
-    picture.height = pixels.height;
-    picture.rgb_cd_m2 = pixels.rgb_cd_m2;
-    picture.standard_error_cd_m2 = pixels.standard_error_cd_m2;
-    for (std::size_t pixel = 0; pixel < pixels.pixel_count(); ++pixel) {
-        picture.luminance_cd_m2.push_back(static_cast<float>(pixels.luminance_cd_m2(pixel)));
-    }
-    return picture;
+    return picture_of(summary(rendered, scene.data().file.warnings),
+                      io::picture_of(rendered, *camera.camera(), origin), white);
 }
 
 }  // namespace
+
+Picture restored_picture(const Summary& summary, const StoredPicture& stored) {
+    return picture_of(summary, io::read_exr(stored.exr, "picture"), {stored.warmest, stored.coolest});
+}
+
+StoredPicture stored(const Picture& picture) {
+    const auto& [pixels, white] = *picture.data;
+    return {io::to_exr(pixels), white.warmest, white.coolest};
+}
 
 void Picture::save(const std::filesystem::path& path) const {
     io::write_picture(data->picture, path, {.exposure = {}, .white = data->white});
@@ -241,12 +267,19 @@ LightFactor light_factor(const std::string& light, const Triple& factor) {
 
 }  // namespace
 
-struct Solution::Data {
-    Scene scene;
-    Summary summary;
+namespace {
+
+SolveResult result_of(io::StoredSolution stored) {
     SolveResult result;
-    int threads = 0;
-};
+    result.method = result.technique = "ray-bundle";
+    result.seed = stored.seed;
+    result.samples = stored.steps;
+    result.attained_error = stored.attained_error;
+    result.solution = std::move(stored.solution);
+    return result;
+}
+
+}  // namespace
 
 const Summary& Solution::summary() const { return data_->summary; }
 
@@ -261,14 +294,25 @@ Solution Solution::load(const std::filesystem::path& path) {
     const Scene scene = Scene::load(scene_path);
     const io::SceneFile& file = scene.data().file;
     io::require_same_light(stored, file, path.string());
-    SolveResult result;
-    result.method = result.technique = "ray-bundle";
-    result.seed = stored.seed;
-    result.samples = stored.steps;
-    result.attained_error = stored.attained_error;
-    result.solution = std::move(stored.solution);
+    SolveResult result = result_of(std::move(stored));
     const Summary all = api::summary(result, file.warnings);
     return Solution(std::make_shared<const Data>(Data{scene, all, std::move(result), file.run.threads}));
+}
+
+std::string stored(const Solution& solution) {
+    const SolveResult& result = solution.data().result;
+    io::StoredSolution stored;  // without the scene's file: it comes with the scene
+    stored.version = program_version();
+    stored.seed = result.seed;
+    stored.steps = result.samples;
+    stored.attained_error = result.attained_error;
+    stored.solution = result.solution;
+    return to_bytes(stored);
+}
+
+Solution restored_solution(const Scene& scene, const Summary& summary, std::string_view bytes) {
+    return Solution(std::make_shared<const Solution::Data>(Solution::Data{
+        scene, summary, result_of(io::read_solution(bytes, "solution")), scene.data().file.run.threads}));
 }
 
 std::vector<std::string> Solution::lights() const {

@@ -12,6 +12,7 @@
 #include "base/monitor.h"
 #include "checks/checks.h"
 #include "estimators/estimator_list.h"
+#include "io/export/export.h"
 #include "io/import/scene_formats.h"
 #include "io/scene/sections.h"
 #include "io/scene/toml.h"
@@ -184,6 +185,11 @@ Scene SceneBuilder::build() const {
                                {"defaults", 0, {data_->defaults}}};
     return make_scene(
         io::read_scene(root, "", data_->directory, data_->base ? data_->base->data().file : io::SceneFile{}));
+}
+
+Export export_scene(const Scene& scene, const std::string& format, const std::filesystem::path& folder) {
+    io::ExportReport report = io::export_scene(scene.data().file, io::export_format(format), folder);
+    return {std::move(report.files), std::move(report.warnings)};
 }
 
 std::vector<PartType> part_types() {

@@ -1,5 +1,7 @@
 #include "base/version.h"
 
+#include "stilb/version.h"
+
 namespace stilb {
 
 const char* program_version() { return STILB_VERSION; }

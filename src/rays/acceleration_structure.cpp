@@ -2,18 +2,47 @@
 
 #include <fmt/format.h>
 
+#include <exception>
+#include <mutex>
 #include <stdexcept>
 
 namespace stilb::rays {
 namespace {
 
-/// Embree's threads call it while they build. Interruptions come between stages, not from here.
-bool report_build(void* monitor, double share) {
-    try {
-        static_cast<const Monitor*>(monitor)->report("acceleration structure", share);
-    } catch (const Cancelled&) {
+/// Passes the progress of a build on to a monitor. What the monitor throws must not pass through Embree,
+/// which would make an error of its own of it.
+struct BuildReport {
+    const Monitor& monitor;
+    std::mutex mutex{};
+    std::exception_ptr thrown{};
+
+    /// Embree's threads call it while they build; false ends the build. Interruptions come between stages,
+    /// not from here.
+    static bool pass_on(void* report, double share) {
+        auto& [monitor, mutex, thrown] = *static_cast<BuildReport*>(report);
+        const std::lock_guard lock(mutex);
+        if (thrown) return false;
+        try {
+            monitor.report("acceleration structure", share);
+        } catch (const Cancelled&) {
+        } catch (...) {
+            thrown = std::current_exception();
+        }
+        return thrown == nullptr;
     }
-    return true;
+};
+
+/// Builds what rays need, and throws what the monitor throws meanwhile.
+void build(RTCScene scene, const Monitor& monitor) {
+    BuildReport report{monitor};
+    rtcSetSceneProgressMonitorFunction(scene, BuildReport::pass_on, &report);
+    try {
+        rtcCommitScene(scene);
+    } catch (...) {
+        if (!report.thrown) throw;
+    }
+    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);  // the monitor may end now
+    if (report.thrown) std::rethrow_exception(report.thrown);
 }
 
 void throw_error(void*, RTCError, const char* message) {
@@ -42,9 +71,7 @@ AccelerationStructure::AccelerationStructure(const Scene& objects, const Precisi
     scene = new_scene(device);
     grazed_edges.emplace(scene, geometries);
     for (const Object& object : objects.objects) add(object);
-    rtcSetSceneProgressMonitorFunction(scene, report_build, const_cast<Monitor*>(&monitor));
-    rtcCommitScene(scene);
-    rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);  // the monitor may end now
+    build(scene, monitor);
 }
 
 AccelerationStructure::~AccelerationStructure() {

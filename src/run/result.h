@@ -159,10 +159,14 @@ struct RoomPower {
 };
 
 struct RunResult : RunSummary {
-    std::string scene_name;             ///< may be empty
-    /// Of all files of the scene, and of what is measured (io::add_hashes()); empty where nobody has set them.
+    std::string scene_name;  ///< may be empty
+    /// Of all files of the scene, and of what is measured (io::add_hashes()); empty where nobody has set
+    /// them.
     std::string scene_hash, sensors_hash;
-    std::uint64_t rays = 0;             ///< of the connections to receivers
+    std::uint64_t rays = 0;  ///< of the connections to receivers
+    /// Nominal, of the intervals: more than 95 % where the run stopped by its own estimates, so that they
+    /// hold in 95 % of the runs.
+    double confidence = 0.95;
     std::vector<SensorResult> sensors;  ///< in the order requested
     scene::InstalledPower power;
     std::optional<PowerDensity> power_density;

@@ -98,7 +98,58 @@ TEST(Library, BuiltScenesMeasureWhatReadScenesDo) {
     EXPECT_NEAR(desk.uniformity.value, desk.minimum.value / desk.mean.value, 1e-12);
     EXPECT_EQ(built["spot"].unit, "cd/m2");
     EXPECT_EQ(built.samples, 4096u);
-    EXPECT_NE(built.json.find("\"desk\""), std::string::npos);
+    EXPECT_NE(built.json().find("\"desk\""), std::string::npos);
+}
+
+TEST(Library, ReplicatesAreTheBasisOfTheErrors) {
+    const stilb::Result result = stilb::measure(room().build(), few_samples());
+    const stilb::SensorResult& desk = result["desk"];
+    const std::size_t readings = desk.readings.size(),
+                      replicates = static_cast<std::size_t>(result.replicates);
+    ASSERT_EQ(desk.replicates.size(), replicates * readings);
+    for (std::size_t j = 0; j < readings; ++j) {
+        double sum = 0, squares = 0;
+        for (std::size_t r = 0; r < replicates; ++r) sum += desk.replicates[r * readings + j];
+        const double mean = sum / static_cast<double>(replicates);
+        for (std::size_t r = 0; r < replicates; ++r)
+            squares += std::pow(desk.replicates[r * readings + j] - mean, 2);
+        EXPECT_NEAR(mean, desk.readings[j].value, 1e-9 * mean);
+        EXPECT_NEAR(std::sqrt(squares / static_cast<double>(replicates * (replicates - 1))),
+                    desk.readings[j].standard_error, 1e-9 * mean);
+    }
+}
+
+TEST(Library, HeadersHaveTheVersionOfTheProgram) {
+    const std::string numbers = std::to_string(STILB_VERSION_MAJOR) + "." +
+                                std::to_string(STILB_VERSION_MINOR) + "." +
+                                std::to_string(STILB_VERSION_PATCH);
+    EXPECT_EQ(STILB_VERSION, numbers);
+    const stilb::Result result = stilb::measure(room().build(), few_samples());
+    EXPECT_NE(result.json().find("\"stilb\": \"" + numbers + "\""), std::string::npos);
+}
+
+/// What no part of the library throws.
+struct Fault {};
+
+TEST(Library, ExceptionsOfProgressArriveAsTheyAre) {
+    std::vector<stilb::Triple> vertices;
+    std::vector<std::array<std::uint32_t, 3>> triangles;
+    for (std::uint32_t i = 0; i < 20'000; ++i) {
+        const double x = 0.01 * (i % 200), y = 0.01 * (i / 200);
+        vertices.insert(vertices.end(), {{x, y, 0.02}, {x + 0.01, y, 0.02}, {x, y + 0.01, 0.02}});
+        triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
+    }
+    stilb::SceneBuilder builder = room();
+    builder.mesh("tiles", vertices, triangles, "wall");
+    const stilb::Scene scene = builder.build();
+    for (const std::string& stage : {std::string("acceleration structure"), std::string()}) {
+        stilb::Control control;
+        control.report = [&](const stilb::Progress& progress) {
+            if (progress.stage == stage) throw Fault();
+        };
+        EXPECT_THROW(stilb::measure(scene, few_samples(), control), Fault) << stage;
+    }
+    EXPECT_EQ(stilb::measure(scene, few_samples()).samples, 4096u) << "the scene can be used all the same";
 }
 
 /// The reader's message without the file and line that it begins with.

@@ -1,6 +1,7 @@
 """Buildings in IFC: written by ifcopenshell, imported, measured."""
 
 import os
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -118,6 +119,20 @@ class Import(unittest.TestCase):
                                 env={**os.environ, "PATH": path}, check=False)
         self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertIn("3 storeys, ", result.stdout)
+        self.assertTrue((self.target / "scene.toml").is_file())
+
+    def test_a_wheel_s_program_finds_the_interpreter_of_its_environment(self):
+        """As auditwheel puts it, in an environment that is not activated."""
+        scripts = self.folder / "lib/python3.11/site-packages/stilb.scripts"
+        scripts.mkdir(parents=True)
+        shutil.copy(os.environ["STILB"], scripts / "stilb")
+        (self.folder / "bin").mkdir()
+        interpreter = self.folder / "bin/python3"
+        interpreter.write_text(f'#!/bin/sh\nPYTHONPATH={os.environ["PYTHONPATH"]} exec {sys.executable} "$@"\n')
+        interpreter.chmod(0o755)
+        result = subprocess.run([scripts / "stilb", "import", self.file, "-o", self.target], capture_output=True, text=True,
+                                env={"PATH": "/usr/bin:/bin"}, check=False)
+        self.assertEqual((result.returncode, result.stderr), (0, ""))
         self.assertTrue((self.target / "scene.toml").is_file())
 
     def test_a_table_of_reflectances_decides(self):

@@ -4,10 +4,13 @@ import io
 import json
 import os
 import signal
+import sys
 import tempfile
 import threading
 import time
 import unittest
+import unittest.mock
+import warnings
 from contextlib import redirect_stderr
 from pathlib import Path
 
@@ -105,7 +108,45 @@ class Readings(unittest.TestCase):
         np.testing.assert_allclose(axes.images[0].get_extent(), (0, 1.6, 0, 0.8))
         self.assertEqual(self.result["eye"].plot().get_ylabel(), "luminance [cd/m2]")
         self.assertIn("<td>2 x 4</td>", self.result._repr_html_())
-        self.assertRegex(repr(desk), r"<desk: 2 x 4 readings, mean [0-9.]+ ± [0-9.]+ lx>")
+        self.assertRegex(repr(desk), r"<desk: 2 x 4 readings, mean [0-9.]+ ± [0-9.]+ lx; converged: paths done>")
+        self.assertNotIn("converged", self.result._repr_html_().lower().replace("converged: paths done", ""))
+
+    def test_a_table_of_all_sensors(self):
+        table = self.result.to_pandas()
+        self.assertEqual(len(table), 11)
+        self.assertEqual(table.loc[("desk", 6), "value"], self.result["desk"].value[1, 2])
+        self.assertEqual(table.loc[("eye", 2), "unit"], "cd/m2")
+        self.assertEqual(table.loc[("eye", 2), "direction_z"], -1)
+
+    def test_data_sets_have_metres_on_their_axes(self):
+        desk, eye = self.result["desk"].to_xarray(), self.result["eye"].to_xarray()
+        np.testing.assert_array_equal(desk["value"].values, self.result["desk"].value)
+        self.assertEqual(desk["value"].dims, ("v", "u"))
+        np.testing.assert_allclose(desk["u"].values, [0.2, 0.6, 1, 1.4])
+        np.testing.assert_allclose(desk["v"].values, [0.2, 0.6])
+        self.assertEqual((desk["value"].attrs["units"], desk["u"].attrs["units"]), ("lx", "m"))
+        self.assertEqual(float(desk["value"].sel(u=1, v=0.6, method="nearest")), self.result["desk"].value[1, 2])
+        np.testing.assert_allclose(desk["x"].sel(u=1, v=0.6, method="nearest"), 2)
+        self.assertEqual(float(desk["rgb"].sel(band="red")[1, 2]), self.result["desk"].rgb[1, 2, 0])
+        self.assertEqual((eye["value"].dims, eye.attrs["name"]), (("reading",), "eye"))
+
+    def test_missing_packages_are_named(self):
+        with unittest.mock.patch.dict(sys.modules, {"xarray": None, "pandas": None}):
+            for table, package in [(self.result["desk"].to_xarray, "xarray"), (self.result.to_pandas, "pandas")]:
+                with self.assertRaisesRegex(ImportError, f"this needs the package {package}: pip install {package}"):
+                    table()
+
+    def test_readings_are_arrays(self):
+        desk = self.result["desk"]
+        np.testing.assert_array_equal(np.asarray(desk), desk.value)
+        self.assertTrue(np.shares_memory(np.asarray(desk), desk.value))
+        self.assertEqual(np.asarray(desk, np.float32).dtype, np.float32)
+        copied = np.array(desk)
+        copied[0, 0] = 1  # a copy can be changed
+        self.assertEqual((desk.shape, desk.size, len(desk)), ((2, 4), 8, 2))
+        self.assertEqual((desk[1, 2], desk[-1].shape), (desk.value[1, 2], (4,)))
+        self.assertEqual(np.asarray(desk).mean(), desk.value.mean())
+        np.testing.assert_array_equal(2 * np.asarray(self.result["eye"][1:]), 2 * self.result["eye"].value[1:])
 
     def test_a_call_takes_less_than_5_ms_more_than_its_run(self):
         def overhead():
@@ -159,8 +200,20 @@ class Pictures(unittest.TestCase):
         np.testing.assert_allclose(image.rgb @ np.float32([0.2126, 0.7152, 0.0722]), image.luminance, rtol=1e-5)
         self.assertTrue(image._repr_png_().startswith(b"\x89PNG"))
         self.assertEqual(image.plot().images[0].get_array().shape, (16, 24))
+        self.assertRegex(repr(image), r"<stilb.Image 24 x 16: auto.*, 4 passes in .* s, error .* %; converged: paths done>")
         with tempfile.TemporaryDirectory() as folder, self.assertRaisesRegex(stilb.InputError, "picture.jpg"):
             image.save(Path(folder) / "picture.jpg")
+
+    def test_pictures_have_depth_and_normals(self):
+        scene = built()
+        scene.sensors["view"] = stilb.Camera(position=(1, 1, 2.2), target=(1, 1, 0), up=(0, 1, 0), fov=20, resolution=(9, 9))
+        del scene.objects["table"]
+        image = scene.render("view", paths=2)
+        self.assertEqual((image.depth.shape, image.normals.shape), ((9, 9), (9, 9, 3)))
+        self.assertAlmostEqual(image.depth[4, 4], 2.2, 5)
+        self.assertGreater(image.depth[0, 0], 2.2)
+        np.testing.assert_allclose(image.normals, np.broadcast_to([0, 0, 1], (9, 9, 3)), atol=1e-6)
+        self.assertFalse(image.depth.flags.writeable)
 
     def test_solutions_dim_their_lights(self):
         with tempfile.TemporaryDirectory() as folder:
@@ -196,21 +249,74 @@ class Runs(unittest.TestCase):
         printed = io.StringIO()
         with redirect_stderr(printed):
             measure_for(1, progress=True)
-        self.assertIn(" s", printed.getvalue())
+        self.assertRegex(printed.getvalue(), r" s .*\n$")
+        with redirect_stderr(printed), self.assertRaises(stilb.Cancelled):
+            printed.truncate(0)
+            measure_for(0.001, progress=True)
+        self.assertFalse(printed.getvalue().endswith(" "))
+
+    def test_runs_that_do_not_converge_say_so(self):
+        with self.assertWarns(stilb.ResultWarning) as caught:
+            result = built().measure(error=1e-6, time=3)
+        self.assertEqual((result.converged, result.stopped), (False, "time over"))
+        shortfall = [str(warning.message) for warning in caught.warnings if "requested error" in str(warning.message)]
+        self.assertEqual(len(shortfall), 1)
+        self.assertRegex(shortfall[0], "The requested error of 0.0001 % is not reached: the error is [0-9.e-]+ %. The run ended "
+                                       "by: time over.")
+        self.assertEqual(caught.filename, __file__)
+        for text in (repr(result), repr(result["desk"]), result._repr_html_(), result["desk"]._repr_html_(),
+                     repr(result["desk"].run)):
+            self.assertIn("NOT converged: time over", text)
+        self.assertIn(shortfall[0], repr(result))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            self.assertEqual(built().measure(error=0.5).stopped, "target reached")
+
+    def test_warnings_of_runs_are_python_warnings(self):
+        scene = built()
+        scene.sensors["behind"] = stilb.Illuminance(position=(9, 9, 9), normal=(0, 0, 1))
+        for run in (lambda: scene.measure(paths=PATHS), lambda: scene.illuminance([9, 9, 9], [0, 0, 1], paths=PATHS).run):
+            with self.assertWarns(stilb.ResultWarning) as caught:
+                result = run()
+            self.assertEqual([str(warning.message) for warning in caught.warnings], result.warnings)
+            self.assertEqual(caught.filename, __file__)
+        result = scene.measure(paths=PATHS)
+        self.assertIn(f"Warning: {result.warnings[0]}", repr(result))
+        self.assertIn("Warning: ", result._repr_html_())
 
     def test_errors_of_progress_end_the_run(self):
         def fail(report):
             raise ZeroDivisionError
 
-        with self.assertRaises(ZeroDivisionError):
+        with self.assertRaises(ZeroDivisionError) as caught:
             measure_for(600, progress=fail)
+        self.assertTrue(caught.exception.result is None or caught.exception.result["eye"].size == 3)
 
-    def test_ctrl_c_ends_the_run(self):
-        threading.Timer(0.5, os.kill, (os.getpid(), signal.SIGINT)).start()
+    def interrupted(self, run):
+        """The result that Ctrl-C leaves, once there is one."""
+
+        def press(report):
+            if report.stage == "" and np.isfinite(report.error):
+                os.kill(os.getpid(), signal.SIGINT)
+
         begin = time.monotonic()
-        with self.assertRaises(KeyboardInterrupt):
-            measure_for(600)
-        self.assertLess(time.monotonic() - begin, 60)
+        with self.assertRaises(KeyboardInterrupt) as caught:
+            run(press)
+        self.assertLess(time.monotonic() - begin, 120)
+        return caught.exception.result
+
+    def test_ctrl_c_ends_the_run_and_keeps_its_light(self):
+        result = self.interrupted(lambda press: measure_for(600, progress=press))
+        self.assertEqual((result.stopped, result.converged), ("interrupted", False))
+        self.assertTrue(np.all(result["eye"].standard_error > 0))
+        reading = self.interrupted(lambda press: built().illuminance(np.ones((2, 2, 3)), (0, 0, 1), time=600, progress=press))
+        self.assertEqual((reading.shape, reading.run.stopped), ((2, 2), "interrupted"))
+        image = self.interrupted(lambda press: built().render("view", time=600, progress=press))
+        self.assertIsInstance(image, stilb.Image)
+        self.assertEqual(image.stopped, "interrupted")
+        solution = self.interrupted(lambda press: built().solve(time=600, patch=0.5, progress=press))
+        self.assertIsInstance(solution, stilb.Solution)
+        self.assertGreater(solution.render().luminance.max(), 0)
 
     def test_other_threads_go_on(self):
         counts = []
@@ -236,6 +342,15 @@ class Runs(unittest.TestCase):
                                  ({"target": "means"}, 'Did you mean "mean"')]:
             with self.assertRaisesRegex(stilb.InputError, message):
                 built().measure(**options)
+        for options, message in [({"paths": "4096"}, "^paths: '4096' is not allowed. Allowed: a whole number from 1 to "),
+                                 ({"paths": 1.5}, "^paths: 1.5 is not allowed"), ({"seed": -1}, "^seed: -1 is not allowed. Allowed: a "),
+                                 ({"time": "long"}, "^time: 'long' is not allowed. Allowed: a time above 0"),
+                                 ({"method": 3}, "^method: 3 is not allowed. Allowed: .*path, "),
+                                 ({"error": [1]}, "^error: .1. is not allowed. Allowed: a share"),
+                                 ({"sensors": []}, "^sensors: the list is empty. Allowed: names of sensors .desk, eye, view.")]:
+            with self.subTest(options), self.assertRaisesRegex(stilb.InputError, message):
+                built().measure(**options)
+        self.assertEqual(built().measure(paths=4096.0).paths, built().measure(paths=4096).paths)
         with self.assertRaisesRegex(TypeError, "unknown argument eror; allowed: method, error, target, time, paths"):
             built().measure(eror=0.01)
 

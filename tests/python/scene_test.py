@@ -1,5 +1,6 @@
 """Scenes in Python: read, built, changed, saved, and what is wrong with them."""
 
+import json
 import tempfile
 import unittest
 from pathlib import Path
@@ -7,6 +8,8 @@ from pathlib import Path
 import numpy as np
 import stilb
 from room import TOML, built, program
+from stilb import _meanings, _stilb
+from stilb._names import class_name
 
 PATHS = 2048
 
@@ -72,6 +75,93 @@ class SceneFiles(unittest.TestCase):
         np.testing.assert_array_equal(saved.measure(paths=PATHS)["desk"].value, built().measure(paths=PATHS)["desk"].value)
         self.assertEqual(saved.run, {"seed": 7})
 
+    def test_saved_scenes_are_compact_and_complete(self):
+        scene = built()
+        scene.name = 'a "room"\n'
+        scene.objects["lamp 2.0"] = stilb.Sphere(center=(3, 2, 2), radius=0.1, material="wall")
+        scene.defaults["lights"] = {"maintenance": 0.8}
+        scene.lights["bulbs"] = stilb.PointLight(array={"origin": [1, 1, 2], "step_u": [1, 0, 0], "step_v": [0, 1, 0],
+                                                        "count": [2, 1]}, flux=np.float64(1e20 / 1e18))
+        scene.save(self.folder / "saved.toml")
+        text = (self.folder / "saved.toml").read_text()
+        self.assertIn("\nmin = [0, 0, 0]\n", text)
+        self.assertIn('[objects."lamp 2.0"]', text)
+        saved = stilb.load(self.folder / "saved.toml")
+        self.assertEqual(saved.name, scene.name)
+        self.assertEqual(saved.objects["lamp 2.0"].to_dict(), {"shape": "sphere", "center": [3, 2, 2], "radius": 0.1, "material": "wall"}
+                         | {"center": (3, 2, 2)})
+        np.testing.assert_array_equal(saved.measure(paths=PATHS)["desk"].value, scene.measure(paths=PATHS)["desk"].value)
+
+    def test_scenes_are_read_from_texts(self):
+        scene = stilb.Scene.parse(TOML)
+        np.testing.assert_array_equal(scene.measure(paths=PATHS)["desk"].value, built().measure(paths=PATHS)["desk"].value)
+        self.assertEqual((scene.name, scene.lights["bulb"].flux), ("room", 800))
+        with self.assertRaisesRegex(stilb.InputError, 'materials.wall: unknown key "reflectence"'):
+            stilb.Scene.parse(TOML.replace("reflectance", "reflectence"))
+        (self.folder / "floor.obj").write_text("v 0 0 0.1\nv 4 0 0.1\nv 4 3 0.1\nf 1 2 3\n")
+        text = TOML + '[objects.floor]\nshape = "mesh"\nfile = "floor.obj"\nmaterial = "wall"\n'
+        self.assertEqual(len(stilb.Scene.parse(text, self.folder).objects), 3)
+        with self.assertRaisesRegex(stilb.InputError, "floor.obj"):
+            stilb.Scene.parse(text)
+
+    def test_scenes_are_made_of_dictionaries(self):
+        scene = built()
+        scene.defaults["lights"] = {"maintenance": 0.8}
+        again = stilb.Scene.from_dict(scene.to_dict())
+        self.assertEqual((again.name, again.run, again.defaults), (scene.name, scene.run, scene.defaults))
+        for section in ("materials", "objects", "lights", "sensors"):
+            self.assertEqual(dict(getattr(again, section)), dict(getattr(scene, section)))
+        self.assertIsInstance(again.objects["table"], stilb.Mesh)
+        again.run["seed"] = 1
+        again.defaults["lights"]["maintenance"] = 0.1
+        self.assertEqual((scene.run["seed"], scene.defaults["lights"]["maintenance"]), (7, 0.8))
+        with self.assertRaisesRegex(stilb.InputError, 'unknown section "light". Did you mean "lights"'):
+            stilb.Scene.from_dict({"light": {}})
+        with self.assertRaisesRegex(stilb.InputError, "run: found a value of type int. Allowed: a dictionary"):
+            stilb.Scene.from_dict({"run": 3})
+
+    def test_keys_are_set_by_their_names(self):
+        scene = built()
+        scene.set("materials.wall.reflectance", 0.2)
+        scene.set("lights.bulb", {"type": "point", "position": [2, 1.5, 2.2], "flux": 100})
+        scene.set("lights.bulb.flux", 200)
+        scene.set("sensors.desk.require.uniformity", 0.3)
+        scene.set("sensors.desk.require.mean", 2)
+        scene.set("run.seed", 3)
+        scene.set("defaults.lights.maintenance", 0.8)
+        scene.set("scene.name", "other")
+        scene.set('objects."a.b"', stilb.Sphere(center=(1, 1, 1), radius=0.1, material="wall"))
+        self.assertEqual((scene.materials["wall"].reflectance, scene.lights["bulb"].flux, scene.run, scene.name),
+                         (0.2, 200, {"seed": 3}, "other"))
+        self.assertEqual(scene.sensors["desk"].require, {"mean": 2, "uniformity": 0.3})
+        self.assertEqual(scene.defaults, {"lights": {"maintenance": 0.8}})
+        self.assertEqual(scene.objects["a.b"].radius, 0.1)
+        self.assertEqual(scene.measure(paths=PATHS)["desk"].requirements.keys(), {"mean", "uniformity"})
+        for key, message in [("light.bulb.flux", 'unknown section "light". Did you mean "lights"'),
+                             ("lights.blub.flux", 'lights.blub.flux: there is no "blub" in lights. Did you mean "bulb"[?] Allowed: bulb'),
+                             ("lights.bulb.fluxx", 'lights.bulb.fluxx: .*no key "fluxx". Did you mean "flux"'),
+                             ("lights", "lights: there is no such key"), ("a b", "a b: this is no key")]:
+            with self.subTest(key), self.assertRaisesRegex(stilb.InputError, message):
+                scene.set(key, 1)
+
+    def test_scenes_are_loaded_with_other_values(self):
+        values = {"lights.bulb.flux": 400, "materials.wall.reflectance": (0.7, 0.5, 0.2), "scene.name": "dim",
+                  "sensors.spot": {"type": "illuminance", "position": np.array([1, 1, 1]), "normal": [0, 0, 1]}}
+        scene = stilb.load(self.file, set=values)
+        self.assertEqual((scene.lights["bulb"].flux, scene.name, "spot" in scene.sensors), (400, "dim", True))
+        desk = scene.measure(paths=PATHS)["desk"].value
+        typed = [f"--set={key}={value}" for key, value in
+                 [("lights.bulb.flux", 400), ("materials.wall.reflectance", "[0.7, 0.5, 0.2]"),
+                  ("sensors.spot", "{type = 'illuminance', position = [1, 1, 1], normal = [0, 0, 1]}")]]
+        printed = json.loads(program("measure", self.file, "--json", "--paths", PATHS, *typed).stdout)
+        np.testing.assert_array_equal(desk.ravel(), [value["value"] for value in printed["sensors"][0]["values"]])
+        scene.lights["bulb"].flux = 800  # a scene that is built anew keeps the other values
+        self.assertIn("spot", scene.measure(paths=PATHS))
+        for key, message in [("lights.bulb.fluxx", 'unknown key "fluxx" for type "point". Did you mean "flux"'),
+                             ("lights.blub.flux", "blub")]:
+            with self.subTest(key), self.assertRaisesRegex(stilb.InputError, message):
+                stilb.load(self.file, set={key: 1})
+
     def test_names_of_files_follow_a_saved_scene(self):
         (self.folder / "meshes").mkdir()
         (self.folder / "meshes/floor.obj").write_text("v 0 0 0\nv 4 0 0\nv 4 3 0\nf 1 2 3\n")
@@ -110,6 +200,7 @@ class SceneFiles(unittest.TestCase):
         plain = illuminance()
         np.testing.assert_allclose(illuminance(light_scale=2), 2 * plain, rtol=1e-9)
         np.testing.assert_allclose(illuminance(scale=0.01), plain, rtol=1e-6)  # of solid angles alone
+        np.testing.assert_allclose(illuminance(set={"import.light_scale": 2}), 2 * plain, rtol=1e-9)
         with self.assertRaisesRegex(stilb.InputError, "light_scale"):
             illuminance(light_scale=-1)
         with self.assertRaisesRegex(stilb.InputError, "import"):
@@ -140,10 +231,35 @@ class Parts(unittest.TestCase):
                      "Grid", "Area", "Ugr", "Derived", "Camera"]:
             self.assertTrue(issubclass(getattr(stilb, name), stilb.Part), name)
 
+    def test_docstrings_name_all_keys_with_their_meaning(self):
+        self.assertRegex(stilb.PointLight.__doc__, r"^A point that shines(.|\n)*\n    flux +luminous flux of each light \[lm\]\n")
+        self.assertIn("projection  \"perspective\", \"fisheye\" or \"panorama\" (default: \"perspective\")", stilb.Camera.__doc__)
+        known = {(kind.section, kind.type): {*kind.keys} for kind in _stilb.part_types()}
+        known["objects", "mesh"] |= {"vertices", "faces"}
+        for (section, kind), keys in known.items():
+            doc = getattr(stilb, class_name(section, kind)).__doc__
+            for key in keys - {"type", "shape"}:
+                self.assertRegex(doc, rf"(?m)^    {key} +[^ ]")
+        for place, keys in _meanings.KEYS.items():  # none is of a key that the reader does not know
+            section, _, kind = place.partition(".")
+            of_section = set().union(*(own for (of, _), own in known.items() if of == section))
+            self.assertLessEqual(set(keys), known[section, kind] if kind else of_section, place)
+
     def test_dictionaries_are_parts(self):
         scene = built()
         scene.lights["bulb"] = {"type": "point", "position": [2, 1.5, 2.3], "flux": 800}
         self.assertEqual(scene.lights["bulb"], stilb.PointLight(position=(2, 1.5, 2.3), flux=800))
+
+    def test_wrong_attributes_are_refused_at_once(self):
+        scene = built()
+        for part, key, meant in [(scene.lights["bulb"], "fluxx", "flux"), (scene.objects["table"], "vertice", "vertices"),
+                                 (scene.sensors["desk"], "requires", "require"), (scene.materials["wall"], "reflectence", "reflectance")]:
+            with self.subTest(key), self.assertRaisesRegex(stilb.InputError, f'no key "{key}". Did you mean "{meant}"'):
+                setattr(part, key, 3)
+            self.assertNotIn(key, part.to_dict())
+        with self.assertRaisesRegex(stilb.InputError, 'PointLight has no key "type"'):
+            scene.lights["bulb"].type = "sphere"
+        scene.lights["bulb"].cct = 3000
 
     def test_wrong_parts_are_refused(self):
         scene = built()

@@ -28,11 +28,15 @@ std::optional<int> run_program(std::vector<std::string> words) {
     return WEXITSTATUS(status);
 }
 
-/// The interpreter that was installed beside this program, else the usual one.
+/// The interpreter of the environment that this program is installed in, else the usual one. A wheel has the
+/// program in lib/python3.11/site-packages/stilb.scripts, and a script that starts it in bin.
 std::string python() {
     std::error_code error;
-    const auto beside = std::filesystem::read_symlink("/proc/self/exe", error).parent_path() / "python3";
-    return !error && std::filesystem::exists(beside) ? beside.string() : "python3";
+    const std::filesystem::path folder = std::filesystem::read_symlink("/proc/self/exe", error).parent_path();
+    if (error) return "python3";
+    const bool is_of_wheel = folder.filename() == "stilb.scripts";
+    const auto interpreter = (is_of_wheel ? folder / "../../../../bin" : folder) / "python3";
+    return std::filesystem::exists(interpreter) ? interpreter.string() : "python3";
 }
 
 }  // namespace

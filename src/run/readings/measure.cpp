@@ -209,7 +209,7 @@ void set_results(const Campaign& campaign, const Scene& scene, std::span<const S
                  const GlareViews& glare, const RunOptions& options,
                  std::span<const std::optional<Vec3>> sight_ends, ChannelWeights weights, RunResult& result) {
     const bool has_looked = sensors::has_requirements(sensors) && ends_when_decided(options);
-    const double confidence = confidence_of(options, result.stop_reason);
+    const double confidence = result.confidence = confidence_of(options, result.stop_reason);
     std::vector<SensorEstimates> estimates = estimate_all(campaign, sensors, confidence, weights);
     std::vector<double> attained;
     std::vector<std::vector<GlareView>> views;
