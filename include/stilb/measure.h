@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <span>
@@ -42,6 +44,14 @@ struct Requirement {
     std::string reason{};
 };
 
+/// What a light, a group of lights, or the light of so many reflections gives at the readings of a sensor.
+struct LightShare {
+    std::string name;
+    std::vector<Estimate> readings;
+    Estimate mean, minimum, maximum, uniformity, diversity;
+    std::vector<double> replicates;  ///< as those of the sensor
+};
+
 /// The readings of one sensor; of a derived value a single one, without colour and position (NaN).
 struct SensorResult {
     std::string name, type;
@@ -57,6 +67,14 @@ struct SensorResult {
     /// those of differences and other functions of readings follow. Rows of runs with the same seed belong
     /// together.
     std::vector<double> replicates;
+    std::vector<LightShare> shares;  ///< with Options::by: they add up to the readings
+};
+
+/// The readings in a state of the lamps ([scenes.NAME]).
+struct LightSceneResult {
+    std::string name;
+    std::vector<SensorResult> sensors;
+    std::optional<double> power_w;  ///< of the lamps so, where it is known
 };
 
 /// A run of measure(), render() or solve(): its options, its effort and its success.
@@ -92,15 +110,61 @@ struct Result : Summary {
     const SensorResult& operator[](std::string_view sensor) const;
 
     struct Data;
-    std::shared_ptr<const Data> data;
+    std::shared_ptr<const Data> data{};
+    std::vector<LightSceneResult> light_scenes{};
+};
+
+/// A run of measure() between two of its batches: a value that other calls continue, here or elsewhere. It
+/// knows the scene, the sensors and the options that its samples depend on.
+class RunState {
+  public:
+    /// Of a run that has not begun.
+    RunState();
+    /// As bytes() has made them, or the contents of a state file (docs/runs.md). Throws InputError where they
+    /// are damaged.
+    explicit RunState(std::string_view bytes);
+    std::string bytes() const;
+
+    bool has_begun() const;
+    std::uint64_t samples() const;  ///< as in Options
+    std::vector<std::uint64_t> seeds() const;
+    /// The number of samples at the next error estimate of a run that has begun: a run that stops there goes
+    /// on with the bits of a run in one go.
+    std::uint64_t samples_at_next_check() const;
+
+    /// Adds the samples of another part of the run, or of a run with another seed. Throws InputError where it
+    /// is of another scene, of other sensors or options, and where both have the same samples.
+    void merge(const RunState& other);
+
+    struct Data;
+    Data& data() { return *data_; }
+    const Data& data() const { return *data_; }
+
+  private:
+    std::shared_ptr<Data> data_;
 };
 
 /// Measures the sensors of a scene that are no cameras, or those of these names. Without options, by the
 /// scene file's section [run]. The result depends on the scene, the sensors, the method, the limits, the seed
 /// and the number of samples, and not on the number of threads. Throws InputError where an option is wrong or
-/// the scene has no such sensor, and Cancelled where the run ends before there is a result.
+/// the scene has no such sensor, and Cancelled where the run ends before there is a result. `state`: may be
+/// null; it is begun, or continued to the limits of the options, which count all samples. Throws InputError
+/// where it is of another run.
 Result measure(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {},
-               const std::vector<std::string>& sensors = {});
+               const std::vector<std::string>& sensors = {}, RunState* state = nullptr);
+
+/// Makes part number `part` (from 0) of `parts` of the samples that `options.paths` asks of the whole run.
+/// All parts together, merged, are the bits of the whole. Returns the effort of the part.
+Summary measure_part(const Scene& scene, const Options& options, std::size_t part, std::size_t parts,
+                     RunState& state, const Control& control = {},
+                     const std::vector<std::string>& sensors = {});
+
+/// The result of the samples in a state, without more of them, with the lights or groups of lights dimmed by
+/// these factors. Throws InputError where the state is of another run, or has not kept these lights apart
+/// (Options::by = "light").
+Result result_of(const Scene& scene, const RunState& state, const std::optional<Options>& options = {},
+                 const std::vector<std::string>& sensors = {},
+                 const std::map<std::string, Triple>& factors = {});
 
 /// A position [m] with the unit normal of a surface element, or with a viewing direction.
 struct Ray {

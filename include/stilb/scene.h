@@ -104,6 +104,8 @@ class SceneBuilder {
     SceneBuilder& sensor(const std::string& name, const Parameters& parameters);
     /// The section [run], such as `run({{"maintenance", 0.8}})`.
     SceneBuilder& run(const Parameters& parameters);
+    /// A state of the lamps, such as `light_scene("evening", {{"panel", 0.2}, {"others", 0}})`.
+    SceneBuilder& light_scene(const std::string& name, const Parameters& parameters);
     /// The section [defaults], such as `defaults({{"lights", Parameters{{"cct", 4000}}}})`.
     SceneBuilder& defaults(const Parameters& parameters);
     /// The folder that file names are relative to; the working directory by default.

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <limits>
 
+#include "api/run_state.h"
 #include "api/scene_data.h"
 #include "api/stored.h"
 #include "base/version.h"
 #include "base/warning.h"
 #include "io/image/picture_file.h"
 #include "io/results/results_writer.h"
+#include "io/results/run_file.h"
 #include "io/results/solution_file.h"
 #include "run/solve.h"
 #include "scene/light_groups.h"
@@ -83,6 +85,19 @@ Ray ray_of(const Measurand& measurand) {
             location.directions.empty() ? kNowhere : triple(location.directions.front().value)};
 }
 
+LightShare share_of(run::Share& measured) {
+    LightShare share{.name = measured.name,
+                     .readings = {},
+                     .mean = estimate(measured.summary.mean),
+                     .minimum = estimate(measured.summary.minimum),
+                     .maximum = estimate(measured.summary.maximum),
+                     .uniformity = estimate(measured.summary.uniformity),
+                     .diversity = estimate(measured.summary.diversity),
+                     .replicates = std::move(measured.replicate_means)};
+    for (const statistics::Estimate& reading : measured.readings) share.readings.push_back(estimate(reading));
+    return share;
+}
+
 SensorResult sensor_result(run::SensorResult& measured) {
     const Sensor& sensor = measured.sensor;
     SensorResult result{.name = sensor.name,
@@ -98,7 +113,9 @@ SensorResult sensor_result(run::SensorResult& measured) {
                         .attained_error = measured.attained_error,
                         .diversity = estimate(measured.summary.diversity),
                         .requirements = {},
-                        .replicates = std::move(measured.replicate_means)};
+                        .replicates = std::move(measured.replicate_means),
+                        .shares = {}};
+    for (run::Share& share : measured.shares) result.shares.push_back(share_of(share));
     for (const auto& [requirement, verdict, reason] : measured.requirements) {
         result.requirements.push_back({std::string(requirement.criterion->key), requirement.limit,
                                        static_cast<Verdict>(verdict), reason});
@@ -138,18 +155,40 @@ Result restored_result(const Summary& summary, std::vector<SensorResult> sensors
 
 namespace {
 
-Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
-                       const std::optional<Options>& options, const Control& control) {
+LightFactor light_factor(const std::string& light, const Triple& factor) {
+    for (const double band : factor) {
+        if (band >= 0 && std::isfinite(band)) continue;
+        throw InputError(
+            fmt::format("lights.{}: {} is not allowed. Allowed: a factor of 0 or more.", light, band));
+    }
+    return {light, {{factor[0], factor[1], factor[2]}}};
+}
+
+Result result_from(const Scene& scene, RunResult run) {
     const io::SceneFile& file = scene.data().file;
-    ControlSink sink(control);
-    RunResult run =
-        run::measure(scene.data().prepared, sensors, run_options(scene, options), &sink, control.interrupt);
+    add_hashes(file, run);
     run.warnings.insert(run.warnings.begin(), file.warnings.begin(), file.warnings.end());
     Result result{summary(run, {}), {}, run.confidence, {}};
     std::ranges::transform(run.sensors, std::back_inserter(result.sensors), sensor_result);
+    for (RunResult& lit : run.light_scenes) {
+        LightSceneResult& own = result.light_scenes.emplace_back();
+        own.name = lit.scene_name;
+        own.power_w = lit.power.power_w;
+        std::ranges::transform(lit.sensors, std::back_inserter(own.sensors), sensor_result);
+    }
     result.data = std::make_shared<const Result::Data>(
         Result::Data{Result::Data::Source{std::move(run), scene.data().path.string()}});
     return result;
+}
+
+Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
+                       const std::optional<Options>& options, const Control& control,
+                       RunState* state = nullptr) {
+    ControlSink sink(control);
+    const RunOptions run = run_options(scene, options);
+    if (state) state->data().require(scene, sensors, run);
+    return result_from(scene, run::measure(scene.data().prepared, sensors, run, &sink, control.interrupt,
+                                           state ? &state->data().sums : nullptr));
 }
 
 Vec3 position_of(const Ray& ray) { return {ray.position[0], ray.position[1], ray.position[2]}; }
@@ -173,9 +212,33 @@ Vec3 direction_of(const Ray& ray, std::size_t index, std::string_view what) {
 }  // namespace
 
 Result measure(const Scene& scene, const std::optional<Options>& options, const Control& control,
-               const std::vector<std::string>& sensors) {
+               const std::vector<std::string>& sensors, RunState* state) {
     return measure_sensors(scene, sensors::choose_meters(scene.data().file.sensors, sensors), options,
-                           control);
+                           control, state);
+}
+
+Summary measure_part(const Scene& scene, const Options& options, std::size_t part, std::size_t parts,
+                     RunState& state, const Control& control, const std::vector<std::string>& sensors) {
+    const std::vector<Sensor> meters = sensors::choose_meters(scene.data().file.sensors, sensors);
+    const RunOptions run = run_options(scene, options);
+    state.data().require(scene, meters, run);
+    ControlSink sink(control);
+    return summary(run::measure_part(scene.data().prepared, meters, run, {part, parts}, state.data().sums,
+                                     &sink, control.interrupt),
+                   scene.data().file.warnings);
+}
+
+Result result_of(const Scene& scene, const RunState& state, const std::optional<Options>& options,
+                 const std::vector<std::string>& sensors, const std::map<std::string, Triple>& factors) {
+    const std::vector<Sensor> meters = sensors::choose_meters(scene.data().file.sensors, sensors);
+    const RunOptions run = run_options(scene, options);
+    if (!state.has_begun()) throw InputError("the run has no samples yet");
+    RunState::Data own = state.data();
+    own.require(scene, meters, run);
+    LightScene dimmed;
+    for (const auto& [name, factor] : factors) dimmed.factors.push_back(light_factor(name, factor));
+    return result_from(scene, run::result_of(scene.data().prepared, meters, run, own.sums,
+                                             factors.empty() ? nullptr : &dimmed));
 }
 
 Result illuminance(const Scene& scene, std::span<const Ray> elements, const std::optional<Options>& options,
@@ -253,19 +316,6 @@ Picture render(const Scene& scene, const std::string& camera, const std::optiona
         run::render(scene.data().prepared, sensor, run_options(scene, options), &sink, control.interrupt),
         scene, sensor, scene::whites_of_lights(file.scene));
 }
-
-namespace {
-
-LightFactor light_factor(const std::string& light, const Triple& factor) {
-    for (const double band : factor) {
-        if (band >= 0 && std::isfinite(band)) continue;
-        throw InputError(
-            fmt::format("lights.{}: {} is not allowed. Allowed: a factor of 0 or more.", light, band));
-    }
-    return {light, {{factor[0], factor[1], factor[2]}}};
-}
-
-}  // namespace
 
 namespace {
 

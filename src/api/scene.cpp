@@ -92,7 +92,7 @@ RunOptions run_options(const Scene& scene, const std::optional<Options>& options
 /// The scene as the reader takes it: a tree without lines.
 struct SceneBuilder::Data {
     std::string name;
-    io::TomlMembers materials, objects, lights, sensors, run, defaults;
+    io::TomlMembers materials, objects, lights, sensors, scenes, run, defaults;
     std::filesystem::path directory = ".";
     std::optional<Scene> base;
 
@@ -164,6 +164,11 @@ SceneBuilder& SceneBuilder::run(const Parameters& parameters) {
     return *this;
 }
 
+SceneBuilder& SceneBuilder::light_scene(const std::string& name, const Parameters& parameters) {
+    data_->add(&Data::scenes, "scenes", name, members_of(parameters));
+    return *this;
+}
+
 SceneBuilder& SceneBuilder::defaults(const Parameters& parameters) {
     data_->defaults = members_of(parameters);
     return *this;
@@ -181,6 +186,7 @@ Scene SceneBuilder::build() const {
                                {"objects", 0, {data_->objects}},
                                {"lights", 0, {data_->lights}},
                                {"sensors", 0, {data_->sensors}},
+                               {"scenes", 0, {data_->scenes}},
                                {"run", 0, {data_->run}},
                                {"defaults", 0, {data_->defaults}}};
     return make_scene(

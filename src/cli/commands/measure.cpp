@@ -12,6 +12,7 @@
 #include "cli/command_line.h"
 #include "cli/commands/measure_flags.h"
 #include "cli/commands/results_table.h"
+#include "cli/commands/sweep.h"
 #include "cli/outputs.h"
 #include "cli/progress.h"
 #include "cli/scene_argument.h"
@@ -36,6 +37,7 @@ struct MeasureRequest {
     std::string scene, points, from;
     std::optional<std::string> format, part;
     ReadingFiles files;
+    SweepFlags sweep;
     StateFlags state;
     MeasureFlags flags;
 };
@@ -90,13 +92,6 @@ std::vector<Sensor> chosen_sensors(const MeasureRequest& request, io::SceneFile&
     const std::vector<std::string>& names = request.flags.sensors;
     return sensors::choose_meters(file.sensors, names.empty() ? added : names, request.scene);
 }
-
-/// What a measurement begins with.
-struct Measurement {
-    io::SceneFile file;
-    std::vector<Sensor> sensors;
-    RunOptions options;
-};
 
 Measurement prepared(const MeasureRequest& request) {
     const MeasureFlags& flags = request.flags;
@@ -202,6 +197,23 @@ int run_measure(const MeasureRequest& request, const CommandLine& line) {
     return exit_code;
 }
 
+/// --csv names the file of the table.
+int sweep(const MeasureRequest& request) {
+    if (!request.files.json_files().empty() || !request.files.picture.empty() || request.part ||
+        !request.state.path.empty())
+        throw InputError(
+            "--vary writes one table, with --csv FILE: it takes no --json, -o, --falsecolor, --state or "
+            "--part.");
+    return run_sweep(request.sweep, request.files.csv_directory, request.flags.run.quiet,
+                     [&](const std::vector<std::string>& overrides) {
+                         MeasureRequest variant = request;
+                         variant.files = {};
+                         variant.flags.overrides.insert(variant.flags.overrides.end(), overrides.begin(),
+                                                        overrides.end());
+                         return prepared(variant);
+                     });
+}
+
 /// A path of a stored run, which was given in its folder.
 std::string path_from(const std::string& path, const io::RunOrigin& origin, const std::string& file) {
     if (path.empty()) return path;
@@ -220,7 +232,9 @@ void ReadingFiles::add_to(Command& command) {
         .add("-o,--output", output,
              "Write also the JSON document into this file, in one step; - is stdout, instead of the table")
         .value_name("FILE");
-    command.add("--csv", csv_directory, "Write also a CSV file per sensor into this folder")
+    command
+        .add("--csv", csv_directory,
+             "Write also a CSV file per sensor into this folder; with --vary: the table into this file")
         .value_name("DIR");
     command.add("--falsecolor", picture, "Write also a false-colour picture of grids and areas (.png, .svg)")
         .value_name("FILE");
@@ -290,6 +304,7 @@ Command declare(CommandLine& line, MeasureRequest& request) {
              "--state; "
              "stilb merge puts the parts together")
         .value_name("K/N");
+    request.sweep.add_to(command);
     request.state.add_to(command);
     command
         .add("--from", request.from,
@@ -366,7 +381,7 @@ void add_measure(CommandLine& line) {
     declare(line, *request).run([request, &line] {
         if (!request->from.empty()) return show_from(*request);
         take_scene_back(*request);
-        return run_measure(*request, line);
+        return request->sweep.vary.empty() ? run_measure(*request, line) : sweep(*request);
     });
 }
 

@@ -26,8 +26,8 @@ struct MeasureFlags {
     /// InputError where --check has nothing to act on.
     RunOptions options_for(std::span<const Sensor> measured, const RunOptions& of_file,
                            const std::string& scene) const;
-    /// With --check, requirements decide: those with the lamps as they are, and in light scenes that name their
-    /// sensors.
+    /// With --check, requirements decide: those with the lamps as they are, and in light scenes that name
+    /// their sensors.
     int exit_code_of(const RunResult& result, const RunOptions& options) const;
 };
 

@@ -89,6 +89,25 @@ std::string fingerprint_of(const estimators::PatchMethodOptions& options) {
     return print.text();
 }
 
+/// Of a scene without files: what tells it apart from others that are at hand, by numbers of all its parts.
+std::string fingerprint_of(const Scene& scene) {
+    Fingerprint print;
+    for (const Object& object : scene.objects) {
+        print.add(object.name);
+        print.add(bounds_of(object.shape));
+        for (const MaterialId material : object.materials) print.add(material);
+    }
+    for (const NamedMaterial& material : scene.materials) {
+        print.add(material.name);
+        print.add(reflectance_bound(material.material));
+    }
+    for (const Light& light : scene.lights) {
+        print.add(light.name);
+        print.add(scene::flux_lm(scene, light));
+    }
+    return print.text();
+}
+
 /// Of what is kept apart: factors alone may change.
 std::string fingerprint_of(const run::LightDivision& division) {
     Fingerprint print;
@@ -232,7 +251,8 @@ std::vector<std::string_view> chunks_of(std::string_view bytes, const std::strin
 
 RunTraits traits_of(const SceneFile& scene, std::span<const Sensor> sensors, const RunOptions& options) {
     RunTraits traits{{"version", program_version()},
-                     {"scene", light_hash(scene.sources, scene.overrides)},
+                     {"scene", scene.sources.empty() ? fingerprint_of(scene.scene)
+                                                     : light_hash(scene.sources, scene.overrides)},
                      {"sensors", fingerprint_of(sensors)}};
     run::for_each_value(options, [&](const auto& option, const auto& value) {
         if (!is_limit(option.key)) traits.push_back({std::string(option.key), fmt::format("{}", value)});

@@ -147,8 +147,16 @@ RunOptions read_run(TomlTable section) {
 
 namespace {
 
-/// [scenes.NAME]: factors of lights and groups beside the keys of the state itself.
-LightScene read_light_scene(const std::string& name, const TomlTable& table, const SceneFile& file) {
+/// Whether a light or group that the scene does without is in its section: all of its lights are off.
+bool is_off(std::string_view name, const TomlTable& lights) {
+    if (lights.has(name)) return true;
+    return std::ranges::any_of(named_tables(lights),
+                               [&](const NamedTable& light) { return light.table.text_of("group") == name; });
+}
+
+/// [scenes.NAME]: factors of lights and groups beside the keys of the state itself. `section`: [lights].
+LightScene read_light_scene(const std::string& name, const TomlTable& table, const TomlTable& section,
+                            const SceneFile& file) {
     const std::vector<std::string> names = scene::names_for_dimming(file.scene);
     const std::vector<std::string_view> lights(names.begin(), names.end());
     LightScene state;
@@ -168,6 +176,8 @@ LightScene read_light_scene(const std::string& name, const TomlTable& table, con
             }
         } else if (std::ranges::find(names, key) != names.end()) {
             state.factors.push_back({key, item.rgb(kDimming)});
+        } else if (is_off(key, section)) {
+            item.rgb(kDimming);
         } else {
             item.fail(
                 fmt::format("there is no light or group of lights {}.{} Or: others, bounces, maintenance, "
@@ -239,7 +249,7 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
         file.warnings.emplace_back(WarningKind::no_light, InputError(std::string(kNoLight), {name}).what());
     read_sensors(sensors, defaults("sensors", sensor_types()), file);
     for (const auto& [state, table] : named_tables(section_of(root, "scenes", none)))
-        file.run.light_scenes.push_back(read_light_scene(state, table, file));
+        file.run.light_scenes.push_back(read_light_scene(state, table, lights, file));
     return file;
 }
 

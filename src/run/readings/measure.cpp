@@ -294,12 +294,16 @@ std::vector<std::string> sharp_light_warnings(const transport::SharpLight& sharp
 }
 
 /// Throws InputError where light must be kept apart, and the method does not.
-void require_channels(const LightDivision& division, const estimators::Estimator& estimator) {
-    if (!division.channels() || !estimator.known_parts().empty()) return;
-    throw InputError(fmt::format(
-        "{}: technique {} keeps the light of lamps and of bounces together. Those that keep it apart: path, "
-        "light-paths, guided, and auto, which chooses one of them.",
-        division.shares().empty() ? "[scenes]" : "by", estimator.technique()));
+void require_channels(const LightDivision& division, const estimators::EstimatorEntry& method,
+                      const RunOptions& options) {
+    const auto first_shot = options.patches.first_shot.variant.value_or(estimators::FirstShotVariant::none);
+    if (!division.channels() || (!method.lights_patches && first_shot == estimators::FirstShotVariant::none))
+        return;
+    throw InputError(
+        fmt::format("{}: method {} with its patches keeps the light of lamps and of bounces together. "
+                    "Methods that keep it apart: path "
+                    "without first shot, light-paths, guided, and auto, which chooses one of them.",
+                    division.shares().empty() ? "[scenes]" : "by", method.name));
 }
 
 /// Sets the results of a run in a state of the lamps: sensors, glare, their warnings and power.
@@ -370,6 +374,8 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
     if (!begins) options.seed = state.plan.seed;
     if (samples == Samples::no_more) options.paths = 0;  // there are as many
     require_measurable(given_sensors, method);
+    const LightDivision division(scene, options);
+    require_channels(division, method, options);
 
     Session session(prepared, given_sensors, asked_options, options, progress, interrupt);
     require_surfaces(given_sensors, session.caster());
@@ -381,11 +387,9 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
     problem.weights = wanted.weights;
     problem.sensors = wanted.sensor_of;
     problem.error = options.error.value_or(problem.error);
-    const LightDivision division(scene, options);
     problem.channels = division.channels();
     std::unique_ptr<estimators::Estimator> estimator;
     session.on_threads([&] { estimator = method.make(problem); });
-    require_channels(division, *estimator);
     // Patches store the light of highlights: each sample then contains it.
     const transport::SharpLight sharp = method.lights_patches
                                             ? transport::SharpLight{}
