@@ -7,6 +7,7 @@ used, with the messages of the command line.
 
 from __future__ import annotations
 
+import copy
 import inspect
 from collections.abc import Mapping
 from typing import Any
@@ -64,6 +65,16 @@ class Part:
 
     def __dir__(self) -> list[str]:
         return [*super().__dir__(), *self._keys]
+
+    def __copy__(self) -> Part:
+        """Arrays, which nothing changes, are shared."""
+        made = type(self).__new__(type(self))
+        keys = {key: value if isinstance(value, np.ndarray) else copy.deepcopy(value) for key, value in self._keys.items()}
+        made.__dict__.update({**self.__dict__, "_keys": keys})
+        return made
+
+    def __deepcopy__(self, memo: dict[int, Any]) -> Part:
+        return copy.copy(self)
 
     def __reduce__(self) -> tuple[Any, ...]:
         return _restored, (type(self), self.section, dict(self._keys))

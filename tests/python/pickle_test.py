@@ -52,6 +52,15 @@ class Scenes(unittest.TestCase):
             self.assertEqual((scene.lights["bulb"].flux, scene.run["seed"], "eye" in scene.sensors), (800, 7, True))
             self.assertLess(measured(copied)["desk"].value.max(), 1)
 
+    def test_copies_share_large_arrays_and_nothing_that_changes(self):
+        scene = built()
+        copied = copy.deepcopy(scene)
+        self.assertIs(copied.objects["table"].vertices, scene.objects["table"].vertices)
+        copied.set("sensors.desk.require.mean", 9)
+        part = copy.deepcopy(scene.sensors["desk"])
+        part.require["mean"] = 10
+        self.assertEqual(scene.sensors["desk"].require, {"mean": 1})
+
     def test_files_of_scenes_are_found_from_other_folders(self):
         with tempfile.TemporaryDirectory() as folder:
             Path(folder, "floor.obj").write_text("v 0 0 0.1\nv 4 0 0.1\nv 4 3 0.1\nf 1 2 3\n")
