@@ -139,6 +139,10 @@ Html body(const Report& report) {
     if (report.readings) {
         html += section("Measured values", measured_values(*report.readings));
         html += section("Glare", glare(*report.readings));
+        html += section(report.options.by == "bounce" ? "By number of reflections" : "By light",
+                        shares(*report.readings));
+        for (const RunResult& lit : report.readings->light_scenes)
+            html += section(fmt::format("Light scene {}", lit.scene_name), light_scene(lit));
     }
     html += section("Luminaires", luminaires_section(scene));
     html += section("Materials", materials_table(scene));

@@ -212,6 +212,26 @@ Html requirements(const RunResult& result) {
 
 Html measured_values(const RunResult& result) { return statistics_table(result) + values_table(result); }
 
+Html shares(const RunResult& result) {
+    Table table({{"Sensor"}, {"Of"}, {"Mean", Table::Column::numbers}, {"Share", Table::Column::numbers}});
+    for (const SensorResult& sensor : result.sensors) {
+        for (const run::Share& share : sensor.shares) {
+            const double part = share.summary.mean.value / sensor.summary.mean.value;
+            table.add({text(sensor.sensor.name), text(share.name),
+                       text(io::with_unit(share.summary.mean, sensor.sensor)),
+                       text(std::isfinite(part) ? io::percent(part) : "–")});
+        }
+    }
+    return table.is_empty() ? Html{} : table.html();
+}
+
+Html light_scene(const RunResult& lit) {
+    Html html;
+    if (const std::string power = io::installed_power_text(lit); !power.empty())
+        html += element("p", fmt::format("Power: {}", power));
+    return html + requirements(lit) + measured_values(lit) + glare(lit);
+}
+
 Html glare(const RunResult& result) {
     Html html;
     for (const SensorResult& sensor : result.sensors) {

@@ -13,6 +13,10 @@ Html certainty(const RunResult& result, const RunOptions& options);
 Html requirements(const RunResult& result);
 /// The statistics of the sensors, and single values.
 Html measured_values(const RunResult& result);
+/// What each light, group or number of reflections gives; nothing where the run has not kept them apart.
+Html shares(const RunResult& result);
+/// The power of the lamps, what is required, values and glare in a state of the lamps.
+Html light_scene(const RunResult& lit);
 /// Ratings of glare with their sources; nothing where there are none.
 Html glare(const RunResult& result);
 /// All readings of all sensors, one by one.

@@ -13,6 +13,21 @@ namespace {
 
 const std::string& group_of(const Light& light) { return light.group.empty() ? light.name : light.group; }
 
+/// Without maintenance.
+Rgb dimming(const Light& light, const LightScene& state) {
+    Rgb factor = state.others;
+    for (const std::string& name : {group_of(light), light.name}) {
+        const auto given = std::ranges::find(state.factors, name, &LightFactor::name);
+        if (given != state.factors.end()) factor = given->factor;
+    }
+    return factor;
+}
+
+double maintenance_ratio(const Light& light, const LightScene& state) {
+    const bool is_lamp = location_of(light) != LightLocation::infinity;
+    return state.maintenance && is_lamp ? *state.maintenance / light.maintenance : 1;
+}
+
 }  // namespace
 
 LightGroups light_groups(const Scene& scene) {
@@ -46,17 +61,8 @@ std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors,
 }
 
 Scene relit(Scene scene, const LightGroups& groups, std::span<const Rgb> factors) {
-    std::vector<Rgb> of_lights;
-    for (const std::uint32_t group : groups.of_light) of_lights.push_back(factors[group]);
-    return relit(std::move(scene), of_lights);
-}
-
-Scene relit(Scene scene, std::span<const Rgb> of_lights) {
-    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        Light& light = scene.lights[i];
-        light.source = lights::scaled(light.source, of_lights[i]);
-        if (light.power_w) *light.power_w *= of_lights[i].luminance();
-    }
+    for (std::size_t i = 0; i < scene.lights.size(); ++i)
+        scene.lights[i].source = lights::scaled(scene.lights[i].source, factors[groups.of_light[i]]);
     return scene;
 }
 
@@ -80,17 +86,19 @@ std::vector<Rgb> factors_of_lights(const LightScene& state, const Scene& scene) 
                                      given.name, question, fmt::join(names, ", ")));
     }
     std::vector<Rgb> factors;
-    for (const Light& light : scene.lights) {
-        Rgb factor = state.others;
-        for (const std::string& name : {group_of(light), light.name}) {
-            const auto given = std::ranges::find(state.factors, name, &LightFactor::name);
-            if (given != state.factors.end()) factor = given->factor;
-        }
-        const bool is_lamp = location_of(light) != LightLocation::infinity;
-        factors.push_back(state.maintenance && is_lamp ? factor * (*state.maintenance / light.maintenance)
-                                                       : factor);
-    }
+    for (const Light& light : scene.lights)
+        factors.push_back(dimming(light, state) * maintenance_ratio(light, state));
     return factors;
+}
+
+Scene lit(Scene scene, const LightScene& state) {
+    const std::vector<Rgb> factors = factors_of_lights(state, scene);
+    for (std::size_t i = 0; i < scene.lights.size(); ++i) {
+        Light& light = scene.lights[i];
+        light.source = lights::scaled(light.source, factors[i]);
+        if (light.power_w) *light.power_w *= dimming(light, state).luminance();
+    }
+    return scene;
 }
 
 }  // namespace stilb::scene

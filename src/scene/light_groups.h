@@ -41,8 +41,6 @@ std::vector<Rgb> factors_of_groups(std::span<const LightFactor> factors, std::sp
 
 /// The scene with the light of each group multiplied by its factor.
 Scene relit(Scene scene, const LightGroups& groups, std::span<const Rgb> factors);
-/// The same by a factor for each of Scene::lights. The power of a lamp follows the luminance of its light.
-Scene relit(Scene scene, std::span<const Rgb> of_lights);
 
 /// A state of the lamps in which the same scene is looked at, too.
 struct LightScene {
@@ -60,6 +58,9 @@ struct LightScene {
 std::vector<std::string> names_for_dimming(const Scene& scene);
 /// The factor of each of Scene::lights. Throws InputError where a name is that of no light and no group.
 std::vector<Rgb> factors_of_lights(const LightScene& state, const Scene& scene);
+/// The scene with its lamps in this state. Their power follows the luminance of their light, but not
+/// maintenance.
+Scene lit(Scene scene, const LightScene& state);
 
 }  // namespace stilb::scene
 

@@ -111,10 +111,7 @@ LightScene evening() {
 }
 
 /// A scene whose lamps are so.
-Scene in_the_evening() {
-    Scene scene = lit_room();
-    return scene::relit(scene, scene::factors_of_lights(evening(), scene));
-}
+Scene in_the_evening() { return scene::lit(lit_room(), evening()); }
 
 TEST(LightScenes, AreTheReadingsOfTheDimmedScene) {
     RunOptions options = options_of("light-paths", "none", 1 << 17);

@@ -220,13 +220,14 @@ TEST(RunState, MayLackReplicates) {
     const std::vector<Sensor> sensors{floor_grid(1)};
     const RunOptions options;
     const GlareViews glare(sensors, {scene, caster, 8, 1, Monitor::none()}, 32, {math::RandomKey{1}});
+    const LightDivision together;
     for (const int begun : {0, 3, 7, 8, 31}) {
         const Interrupted method(begun);
         const PossibleLight possible(scene, caster, 8, method);
         RunState state{RunPlan::of(sensors, options, false), {}};
-        Campaign first(method, sensors, glare, possible, 1, 0, state, options, 0);
+        Campaign first(method, sensors, glare, possible, 1, together, state, options, 0);
         EXPECT_THROW(first.advance(64), Cancelled);
-        const Campaign other(method, sensors, glare, possible, 1, 0, state, options, 0);
+        const Campaign other(method, sensors, glare, possible, 1, together, state, options, 0);
         for (const Campaign* campaign : {static_cast<const Campaign*>(&first), &other}) {
             EXPECT_EQ(campaign->has_result(), begun >= 8);
             EXPECT_EQ(campaign->replicates(), static_cast<std::size_t>(begun));

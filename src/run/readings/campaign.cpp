@@ -54,7 +54,7 @@ std::size_t memory_of_readings_bytes(std::span<const Sensor> sensors, const RunO
 
 Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors,
                    const GlareViews& glare, const PossibleLight& possible, std::size_t readings,
-                   std::size_t channels, RunState& state, const RunOptions& options,
+                   const LightDivision& division, RunState& state, const RunOptions& options,
                    std::uint64_t least_samples, RunPart part)
     : estimator_(estimator),
       sensors_(sensors),
@@ -63,7 +63,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
       expected_largest_(estimator.expected_largest()),
       targets_means_(is_error_of_means(options)),
       part_(part),
-      channels_(channels),
+      division_(division),
       packets_(estimator.packets()),
       state_(state) {
     const bool has_packets = !packets_.empty();
@@ -75,7 +75,7 @@ Campaign::Campaign(const estimators::Estimator& estimator, std::span<const Senso
     if (is_part() && !plan().is_complete())
         throw std::invalid_argument("the plan of a part of a run is not complete");
     if (state_.tallies.empty())
-        state_.tallies.assign(plan().units(), estimators::Tally(readings, packets(), channels_));
+        state_.tallies.assign(plan().units(), estimators::Tally(readings, packets(), division_.count()));
     require_own_sums(readings);
     samples_ = std::numeric_limits<std::uint64_t>::max();
     for (std::size_t strand = 0; strand < plan().units(); ++strand) {
@@ -89,7 +89,7 @@ std::size_t Campaign::packets() const { return *std::ranges::max_element(packets
 void Campaign::require_own_sums(std::size_t readings) const {
     const auto is_own = [&](const estimators::Tally& tally) {
         return tally.sum.size() == readings && tally.taken.size() == packets() &&
-               tally.parts.size() == readings * channels_ &&
+               tally.parts.size() == readings * division_.count() &&
                (tally.lacking.empty() || tally.lacking.size() == readings);
     };
     const bool are_own_paces =
@@ -109,7 +109,7 @@ void Campaign::find_begun() {
 void Campaign::make_plan(std::size_t readings, std::uint64_t least_samples) {
     RunPlan& plan = state_.plan;
     plan.technique = estimator_.technique();
-    plan.strands = strands_of_replicate(plan.replicates, readings * (1 + channels_));
+    plan.strands = strands_of_replicate(plan.replicates, readings * (1 + division_.count()));
     plan.unit = plan.strands * estimator_.batch_granularity();
     plan.first_check = plan.in_units(std::max(estimator_.first_check(), samples_for(least_samples)));
     const double per_batch =
@@ -177,6 +177,17 @@ Rgb Campaign::known(std::size_t reading, ChannelWeights weights) const {
     return all;
 }
 
+double Campaign::sampled_share(std::size_t reading, ChannelWeights weights) const {
+    double whole = 0, own = 0, weight = 0;
+    for (const std::size_t r : begun_) {
+        whole += mean(r, reading, {}).luminance();
+        own += mean(r, reading, weights).luminance();
+    }
+    for (const Rgb& of_channel : weights) weight = std::max(weight, of_channel.max());
+    if (own > 0 && whole > 0) return std::min(1.0, own / (weight * whole));
+    return division_.is_direct(weights) ? 0 : 1;
+}
+
 Rgb Campaign::mean(std::size_t replicate, std::size_t reading, ChannelWeights weights) const {
     Rgb all;
     for (const estimators::Tally& strand : strands_of(replicate)) {
@@ -196,7 +207,7 @@ void Campaign::sample_strand(std::size_t strand, std::uint64_t count) {
     const math::RandomKey key = key_of_seed(plan().seed).derived(RunStream::readings).derived(replicate);
     estimators::Batch batch{{key}, first, count, {}};
     if (!plan().paces.empty()) batch.paces = plan().paces[replicate];
-    estimators::Tally more(tally.sum.size(), tally.taken.size(), channels_);
+    estimators::Tally more(tally.sum.size(), tally.taken.size(), division_.count());
     estimator_.run_batch(batch, more);
     more.count(batch);
     tally += more;
@@ -252,6 +263,21 @@ bool Campaign::is_decided() const {
     std::vector<SensorEstimates> all = estimate_all(*this, sensors_, statistics::kVerdictConfidence);
     glare_.rate(all, statistics::kVerdictConfidence);
     for (std::size_t s = 0; s < all.size(); ++s) {
+        const std::vector<RatedRequirement> rated = rate(sensors_[s].requirements, all[s]);
+        if (std::ranges::any_of(rated, &RatedRequirement::is_undecided)) return false;
+    }
+    return std::ranges::all_of(division_.states(),
+                               [&](const LightDivision::State& state) { return is_decided_in(state); });
+}
+
+bool Campaign::is_decided_in(const LightDivision::State& state) const {
+    const std::vector<std::string>& judged = state.light_scene.sensors;
+    if (judged.empty()) return true;
+    const std::vector<SensorEstimates> all =
+        estimate_all(*this, sensors_, statistics::kVerdictConfidence, state.weights);
+    for (std::size_t s = 0; s < all.size(); ++s) {
+        if (sensors_[s].rates_glare() || std::ranges::find(judged, sensors_[s].name) == judged.end())
+            continue;
         const std::vector<RatedRequirement> rated = rate(sensors_[s].requirements, all[s]);
         if (std::ranges::any_of(rated, &RatedRequirement::is_undecided)) return false;
     }
@@ -311,7 +337,8 @@ Campaign::Estimates Campaign::estimates(const Sensor& sensor, std::size_t first,
         if (all.largest[j].overall > 0 || known_part[j].luminance() > 0)
             rare_light = std::max(
                 rare_light, possible_.missed(sensor.measurand(j), largest_reflected(first + j), samples));
-        all.rare_light.push_back(largest_weight * rare_light);
+        if (!weights.empty()) rare_light *= largest_weight * sampled_share(first + j, weights);
+        all.rare_light.push_back(rare_light);
     }
     all.readings =
         statistics::estimate_readings({all.replicate_means, count, all.columns}, confidence, all.rare_light);

@@ -11,6 +11,7 @@
 #include "estimators/estimator.h"
 #include "run/options.h"
 #include "run/plan.h"
+#include "run/readings/division.h"
 #include "run/readings/possible_light.h"
 #include "run/schedule.h"
 #include "sensors/sensor.h"
@@ -26,12 +27,9 @@ inline constexpr std::size_t kGuessBytes = 150'000'000;
 
 class GlareViews;
 
-/// A factor for the light of each channel.
-using ChannelWeights = std::span<const Rgb>;
-
 /// The sums of all replicates, and their progress. Keeps references to the estimator, to the sensors, which
-/// may have no readings, to what their eyes see, to the light that may be missed, and to the state, which
-/// holds all that is done at any time.
+/// may have no readings, to what their eyes see, to the light that may be missed, to the division of light,
+/// and to the state, which holds all that is done at any time.
 class Campaign final : public Work {
   public:
     /// Begins or, where `state` has sums, continues a run of these readings, with as many in all. `part`: of
@@ -39,8 +37,8 @@ class Campaign final : public Work {
     /// estimate. Throws std::invalid_argument where the state is of other readings, or a part has no complete
     /// plan.
     Campaign(const estimators::Estimator& estimator, std::span<const Sensor> sensors, const GlareViews& glare,
-             const PossibleLight& possible, std::size_t readings, std::size_t channels, RunState& state,
-             const RunOptions& options, std::uint64_t least_samples, RunPart part = {});
+             const PossibleLight& possible, std::size_t readings, const LightDivision& division,
+             RunState& state, const RunOptions& options, std::uint64_t least_samples, RunPart part = {});
 
     std::uint64_t samples() const override { return samples_; }
     std::uint64_t samples_in_all() const override;
@@ -110,6 +108,10 @@ class Campaign final : public Work {
     void find_begun();
     void sample_strand(std::size_t strand, std::uint64_t count);
 
+    /// Whether what is required in a light scene is decided, of the sensors that it names; ratings of glare
+    /// are not waited for.
+    bool is_decided_in(const LightDivision::State& state) const;
+
     template <typename Visit>
     void for_each_strand(const Visit& visit) const {
         for (const std::size_t replicate : begun_) std::ranges::for_each(strands_of(replicate), visit);
@@ -117,6 +119,9 @@ class Campaign final : public Work {
     void set_paces();
     /// What needs no samples.
     Rgb known(std::size_t reading, ChannelWeights weights) const;
+    /// The part of the light that samples have found which the weights leave, at most 1; 1 where that is
+    /// none, unless they leave direct light alone, of which none is rare.
+    double sampled_share(std::size_t reading, ChannelWeights weights) const;
     Rgb mean(std::size_t replicate, std::size_t reading, ChannelWeights weights) const;
     /// The largest contribution to a sample of light that does not come straight from a lamp.
     double largest_reflected(std::size_t reading) const;
@@ -133,7 +138,7 @@ class Campaign final : public Work {
     std::vector<double> expected_largest_;
     bool targets_means_;
     RunPart part_;
-    std::size_t channels_;
+    const LightDivision& division_;
     std::vector<std::uint32_t> packets_;  ///< of the readings; one packet where the method has none
     RunState& state_;
     std::vector<std::size_t> begun_;  ///< the replicates that have samples

@@ -73,6 +73,13 @@ std::vector<Rgb> LightDivision::weights_by(const WeightOf& weight_of) const {
     return weights;
 }
 
+bool LightDivision::is_direct(ChannelWeights weights) const {
+    for (std::size_t c = 0; c < weights.size(); ++c) {
+        if (c % channels_.orders > 0 && weights[c].max() > 0) return false;
+    }
+    return channels_.orders > 1;
+}
+
 void LightDivision::add_shares_by_light(const Scene& scene) {
     const LightGroups groups = scene::light_groups(scene);
     for (std::size_t g = 0; g < groups.count(); ++g) {
@@ -109,7 +116,7 @@ auto LightDivision::state_of(const LightScene& light_scene, const Scene& scene) 
     const auto bounces = static_cast<std::size_t>(light_scene.bounces.value_or(0));
     if (light_scene.bounces && bounces + 1 >= most)
         throw InputError("the run has not kept so many reflections apart: run it with --by bounce.");
-    return {light_scene, factors, weights_by([&](std::size_t light, std::size_t order) {
+    return {light_scene, weights_by([&](std::size_t light, std::size_t order) {
                 return light_scene.bounces && order > bounces ? Rgb() : factors[light];
             })};
 }

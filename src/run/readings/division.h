@@ -1,7 +1,7 @@
 // How a run of readings divides its light: into channels, of which shares and light scenes are made.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,16 +14,24 @@ namespace stilb::run {
 /// Reflections that "bounce" keeps apart; the last share has all further ones.
 inline constexpr std::size_t kBounces = 8;
 
+/// A factor for the light of each channel.
+using ChannelWeights = std::span<const Rgb>;
+
 /// Lights that belong together in all that is asked for are one channel, so that there are as few as
 /// possible.
 class LightDivision {
   public:
+    /// Keeps nothing apart.
+    LightDivision() = default;
     /// Throws InputError where a light scene names no light.
     LightDivision(const Scene& scene, const RunOptions& options);
 
     /// Null where nothing is kept apart.
     const transport::Channels* channels() const { return count() > 0 ? &channels_ : nullptr; }
     std::size_t count() const { return has_channels_ ? channels_.count() : 0; }
+
+    /// Whether the weights leave only light that comes straight from lamps.
+    bool is_direct(ChannelWeights weights) const;
 
     /// A sum of channels, by their weights.
     struct Part {
@@ -33,10 +41,10 @@ class LightDivision {
     /// What "by" asks for.
     const std::vector<Part>& shares() const { return shares_; }
 
-    /// A state of the lamps, with the factor of each light.
+    /// A state of the lamps.
     struct State {
         LightScene light_scene;
-        std::vector<Rgb> of_lights, weights;
+        std::vector<Rgb> weights;
     };
     const std::vector<State>& states() const { return states_; }
     /// Another state. Throws InputError where it tells lights or bounces apart that this does not.

@@ -310,7 +310,7 @@ void require_channels(const LightDivision& division, const estimators::Estimator
 void set_results_in(const LightDivision::State& state, const Campaign& campaign, const Scene& scene,
                     std::span<const Sensor> sensors, const RunOptions& options,
                     const estimators::Estimator& estimator, Session& session, RunResult& result) {
-    const Scene lit = scene::relit(scene, state.of_lights);
+    const Scene lit = scene::lit(scene, state.light_scene);
     result.power = scene::installed_power(lit);
     result.rooms = power_of_rooms(lit, session.caster());
     const int most = session.problem().max_reflections, bounces = state.light_scene.bounces.value_or(most);
@@ -405,8 +405,8 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
     const PossibleLight possible(scene, session.caster(), problem.max_reflections, *estimator);
     const auto campaign_of = [&](RunState& sums, RunPart strands) {
         return std::make_unique<Campaign>(*estimator, sensors, *glare, possible, wanted.measurands.size(),
-                                          division.count(), sums, options,
-                                          std::min(sharp.samples, kMostAwaited), strands);
+                                          division, sums, options, std::min(sharp.samples, kMostAwaited),
+                                          strands);
     };
     if (part.of > 1 && !state.plan.is_complete()) {
         RunState first{state.plan, {}};
