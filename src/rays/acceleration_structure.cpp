@@ -43,7 +43,7 @@ AccelerationStructure::AccelerationStructure(const Scene& objects, const Precisi
     grazed_edges.emplace(scene, geometries);
     for (const Object& object : objects.objects) add(object);
     rtcSetSceneProgressMonitorFunction(scene, report_build, const_cast<Monitor*>(&monitor));
-    rtcCommitScene(scene);
+    commit(scene);
     rtcSetSceneProgressMonitorFunction(scene, nullptr, nullptr);  // the monitor may end now
 }
 
