@@ -73,8 +73,8 @@ struct Options {
                    "Stop when 95 % of the readings of each sensor have a 95 % interval within this share of "
                    "their value (dark ones of a hundredth of the mean): 1% or 0.01"},
             Option{"target", &Options::target, Names{target_names}, "", "NAME",
-                   "What has this error: readings (default: 95 % of each sensor's) or mean (means and "
-                   "minima of the sensors)"},
+                   "Which values must reach the error: 95 % of each sensor's readings (readings, the "
+                   "default) or the means and minima of all sensors (mean)"},
             Option{"time", &Options::time_s, Range{1e-3, 1e9, "a time above 0 (from 0.001 to 1e9 s)"}, "s",
                    "S",
                    "Stop after this many seconds; where they do not suffice for a first result, there is "

@@ -37,7 +37,7 @@ void build(RTCScene scene, const Monitor& monitor) {
     BuildReport report{monitor};
     rtcSetSceneProgressMonitorFunction(scene, BuildReport::pass_on, &report);
     try {
-        rtcCommitScene(scene);
+        commit(scene);
     } catch (...) {
         if (!report.thrown) throw;
     }

@@ -11,6 +11,7 @@
 #include <utility>
 #include <variant>
 
+#include "base/parallel.h"
 #include "geometry/cut.h"
 #include "scene/scene.h"
 #include "stilb/error.h"
@@ -204,6 +205,11 @@ RTCScene new_scene(RTCDevice device) {
     return scene;
 }
 
+void commit(RTCScene scene) {
+    parallel_for(1, [](std::size_t) {});
+    rtcCommitScene(scene);
+}
+
 SharedMeshes::~SharedMeshes() {
     for (const auto& [mesh, shared] : meshes_) rtcReleaseScene(shared.scene);
 }
@@ -221,7 +227,7 @@ const SharedMeshes::SharedMesh& SharedMeshes::shared(RTCDevice device, const Mes
     rtcCommitGeometry(geometry);
     rtcAttachGeometry(shared.scene, geometry);
     rtcReleaseGeometry(geometry);
-    rtcCommitScene(shared.scene);
+    commit(shared.scene);
     return shared;
 }
 

@@ -105,6 +105,9 @@ class SharedMeshes {
 
 /// Watertight, and built for many rays.
 RTCScene new_scene(RTCDevice device);
+/// Builds a scene. Embree flushes denormal numbers to zero while it does so. Without a loop before, TBB would
+/// keep that for all later parallel loops of the calling thread.
+void commit(RTCScene scene);
 
 // Data of rays for Embree, for the files that include Embree.
 

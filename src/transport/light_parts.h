@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/rays.h"
 #include "base/rgb.h"
 #include "scene/light_groups.h"
 
@@ -43,30 +44,41 @@ struct Channels {
     std::size_t of(std::uint32_t light, int reflections) const {
         return groups.of_light[light] * orders + std::min(static_cast<std::size_t>(reflections), orders - 1);
     }
-    /// Where the light of a channel is after so many more reflections.
-    std::size_t after(std::size_t channel, int reflections) const {
-        const std::size_t order = channel % orders;
-        return channel - order + std::min(order + static_cast<std::size_t>(reflections), orders - 1);
-    }
 
     // These add to `sums` (channels x readings) what a reading gets, times a weight and after so many more
     // reflections. Pilots have no such sums, and nothing is added to them.
 
     void add(std::span<const LightPart> parts, const Rgb& weight, int reflections, std::size_t reading,
              std::span<Rgb> sums) const {
-        for (const LightPart& part : parts)
-            add(weight * part.value, of(part.light, part.reflections + reflections), reading, sums);
+        if (sums.empty()) return;
+        const std::size_t readings = sums.size() / count();
+        for (const LightPart& part : parts) {
+            const std::size_t channel = of(part.light, part.reflections + reflections);
+            add(weight * part.value, sums[channel * readings + reading]);
+        }
     }
     /// `shares`: by channel.
     void add(std::span<const Rgb> shares, const Rgb& weight, int reflections, std::size_t reading,
              std::span<Rgb> sums) const {
-        for (std::size_t c = 0; c < shares.size(); ++c)
-            add(weight * shares[c], after(c, reflections), reading, sums);
+        if (sums.empty()) return;
+        const std::size_t readings = sums.size() / count();
+        for_all_after(reflections, [&](std::size_t channel, std::size_t after) {
+            add(weight * shares[channel], sums[after * readings + reading]);
+        });
+    }
+    /// `visit(channel, after)`: every channel, and where its light is after so many more reflections.
+    template <typename Visit>
+    STILB_INLINED void for_all_after(int reflections, const Visit& visit) const {
+        const std::size_t all = count(), more = static_cast<std::size_t>(reflections);
+        for (std::size_t first = 0; first < all; first += orders) {
+            for (std::size_t order = 0; order < orders; ++order)
+                visit(first + order, first + std::min(order + more, orders - 1));
+        }
     }
 
   private:
-    void add(const Rgb& value, std::size_t channel, std::size_t reading, std::span<Rgb> sums) const {
-        if (!sums.empty() && value.is_finite()) sums[channel * (sums.size() / count()) + reading] += value;
+    static void add(const Rgb& value, Rgb& sum) {
+        if (value.is_finite()) sum += value;
     }
 };
 
@@ -113,7 +125,7 @@ struct LightSum {
     void reflect() {
         if (!channels_) return;
         std::vector<Rgb> reflected(shares.size());
-        for (std::size_t c = 0; c < shares.size(); ++c) reflected[channels_->after(c, 1)] += shares[c];
+        channels_->for_all_after(1, [&](std::size_t c, std::size_t after) { reflected[after] += shares[c]; });
         shares = std::move(reflected);
     }
 

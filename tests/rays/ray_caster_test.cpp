@@ -9,6 +9,7 @@
 #include <tuple>
 #include <vector>
 
+#include "base/parallel.h"
 #include "geometry/harmonics/surface.h"
 #include "geometry/transform.h"
 #include "materials/black.h"
@@ -422,6 +423,18 @@ TEST(TracedRays, AreCountedOneByOneAndByLanes) {
         }
         std::thread([] { EXPECT_EQ(traced_rays(), 0u) << "of another thread"; }).join();
     }
+}
+
+/// A thread of its own: what TBB keeps for it is not there before.
+TEST(RayCaster, LetsLaterLoopsOfItsThreadKeepDenormalNumbers) {
+    std::thread([] {
+        const Scene scene = boxes(1);
+        const RayCaster caster(scene);
+        const volatile double least_normal = std::numeric_limits<double>::min();
+        double half = 0;
+        parallel_for(1, [&](std::size_t) { half = least_normal / 2; });
+        EXPECT_GT(half, 0);
+    }).join();
 }
 
 }  // namespace

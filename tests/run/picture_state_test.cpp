@@ -1,25 +1,16 @@
 // Pictures that another run continues: they have the bits of a picture in one go.
 #include <gtest/gtest.h>
 
-#include <atomic>
 #include <string>
 #include <vector>
 
 #include "run/pictures/picture_sums.h"
 #include "run/run.h"
 #include "stilb/error.h"
-#include "support/scene_builder.h"
+#include "support/continued_runs.h"
 
 namespace stilb::run {
 namespace {
-
-Scene room_with_box() {
-    Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
-    add_object(scene, Box{{1.7, 0.6, 0.001}, {2.5, 1.4, 0.7}}, diffuse(0.5));
-    add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(5000));
-    return scene;
-}
 
 Sensor camera_of(std::array<int, 2> resolution) {
     Camera camera;
@@ -29,33 +20,6 @@ Sensor camera_of(std::array<int, 2> resolution) {
     camera.resolution = resolution;
     return {"camera", camera};
 }
-
-std::string bytes_of(const PictureSums& sums) {
-    ByteWriter bytes;
-    sums.write(bytes);
-    return bytes.take();
-}
-
-PictureSums sums_of(const std::string& bytes) {
-    const std::string name = "run";
-    ByteReader reader(bytes, 0, name, "Run again.");
-    PictureSums sums = PictureSums::read(reader);
-    reader.expect_end();
-    return sums;
-}
-
-/// Interrupts after so many reports.
-class ImpatientViewer final : public PictureSink {
-  public:
-    explicit ImpatientViewer(int reports) : left_(reports) {}
-    void report(const Progress&) override { interrupt = --left_ <= 0; }
-    bool wants_picture() override { return false; }
-    void show(const Pixels&) override {}
-    std::atomic<bool> interrupt = false;
-
-  private:
-    int left_;
-};
 
 class PictureState : public testing::TestWithParam<const char*> {
   protected:
@@ -74,11 +38,11 @@ TEST_P(PictureState, HasTheSameBitsAfterInterruptions) {
     PictureSums whole, state;
     const RenderResult in_one_go = render(scene_, camera_, options_, nullptr, nullptr, &whole);
     for (const int reports : {3, 8}) {
-        ImpatientViewer viewer(reports);
+        Impatience viewer(reports);
         const RenderResult some = render(scene_, camera_, options_, &viewer, &viewer.interrupt, &state);
         ASSERT_EQ(some.stop_reason, StopReason::interrupted);
         ASSERT_LT(state.passes(), 20u);
-        state = sums_of(bytes_of(state));
+        state = read_state<PictureSums>(bytes_of(state));
     }
     EXPECT_EQ(state.plan().has_paces, !state.plan().paces.empty());
     const RenderResult continued = render(scene_, camera_, options_, nullptr, nullptr, &state);
@@ -114,7 +78,7 @@ TEST(PictureSums, RefuseWhatDoesNotFit) {
                  std::invalid_argument);
     EXPECT_EQ(bytes_of(state), before);
     for (const std::size_t size : {std::size_t{0}, std::size_t{7}, before.size() / 2, before.size() - 1})
-        EXPECT_THROW(sums_of(before.substr(0, size)), InputError) << size;
+        EXPECT_THROW(read_state<PictureSums>(before.substr(0, size)), InputError) << size;
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 #include "run/readings/possible_light.h"
 #include "run/run.h"
 #include "stilb/error.h"
-#include "support/scene_builder.h"
+#include "support/continued_runs.h"
 
 namespace stilb::run {
 namespace {
@@ -31,30 +31,8 @@ struct PlanCase {
 };
 void PrintTo(const PlanCase& c, std::ostream* out) { *out << c.method << " " << c.points; }
 
-Scene lit_room() {
-    Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
-    add_object(scene, Box{{1.7, 0.6, 0.001}, {2.5, 1.4, 0.7}}, diffuse(0.5));
-    add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(5000));
-    return scene;
-}
-
 Sensor floor_grid(int side) {
     return {"grid", Grid{{0.5, 0.5, 0.8}, {2, 0, 0}, {0, 2, 0}, {side, side}, Vec3{0, 0, 1}}};
-}
-
-std::string bytes_of(const RunState& state) {
-    ByteWriter bytes;
-    state.write(bytes);
-    return bytes.take();
-}
-
-RunState state_of(const std::string& bytes) {
-    const std::string name = "run";
-    ByteReader reader(bytes, 0, name, "Run again.");
-    RunState state = RunState::read(reader);
-    reader.expect_end();
-    return state;
 }
 
 std::vector<double> numbers_of(const RunResult& result) {
@@ -77,7 +55,7 @@ RunOptions options_of(const char* method, std::optional<std::uint64_t> paths) {
 
 class RunOfPlan : public testing::TestWithParam<PlanCase> {
   protected:
-    Scene scene_ = lit_room();
+    Scene scene_ = room_with_box();
     Sensor sensor_ = floor_grid(GetParam().points);
     RunOptions options_ = options_of(GetParam().method, GetParam().paths);
 
@@ -93,9 +71,9 @@ TEST_P(RunOfPlan, HasTheSameBitsInParts) {
     ASSERT_TRUE(whole.plan.is_complete());
     RunState merged{whole.plan, {}};
     for (std::size_t number = 0; number < 3; ++number) {
-        RunState part = state_of(bytes_of({whole.plan, {}}));
+        RunState part = read_state<RunState>(bytes_of(RunState{whole.plan, {}}));
         measure_part(scene_, {&sensor_, 1}, options_, {number, 3}, part);
-        merged.merge(state_of(bytes_of(part)));
+        merged.merge(read_state<RunState>(bytes_of(part)));
     }
     EXPECT_EQ(bytes_of(merged), bytes_of(whole));
     EXPECT_EQ(numbers_of(run(options_, &merged)), numbers_of(in_one_go));
@@ -112,22 +90,11 @@ TEST_P(RunByError, HasTheSameBitsWhereItGoesOn) {
     const RunResult first = run(rough, &state);
     const RunResult expected = run(exact, &in_one_go);
     ASSERT_LT(first.samples, expected.samples);
-    state = state_of(bytes_of(state));
+    state = read_state<RunState>(bytes_of(state));
     EXPECT_EQ(numbers_of(run(rough, &state)), numbers_of(first)) << "nothing is left to do";
     EXPECT_EQ(numbers_of(run(exact, &state)), numbers_of(expected));
     EXPECT_EQ(bytes_of(state), bytes_of(in_one_go));
 }
-
-/// Interrupts after so many reports.
-class Impatience final : public ProgressSink {
-  public:
-    explicit Impatience(int reports) : left_(reports) {}
-    void report(const Progress&) override { interrupt = --left_ <= 0; }
-    std::atomic<bool> interrupt = false;
-
-  private:
-    int left_;
-};
 
 TEST_P(RunOfPlan, HasTheSameBitsAfterAnInterruption) {
     RunState whole, state;
@@ -151,7 +118,7 @@ INSTANTIATE_TEST_SUITE_P(Methods, RunOfPlan,
 INSTANTIATE_TEST_SUITE_P(Methods, RunByError, testing::Values(kAuto, kLightPaths, kGuided, kGrid, kPath));
 
 TEST(RunState, RefusesWhatDoesNotFit) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const Sensor sensor = floor_grid(2), other = floor_grid(3);
     RunState state;
     const RunOptions options = options_of("light-paths", 1 << 15);
@@ -167,11 +134,11 @@ TEST(RunState, RefusesWhatDoesNotFit) {
     EXPECT_THROW(measure_part(scene, {&sensor, 1}, options_of("auto", {}), {0, 2}, part), InputError);
     const std::string bytes = bytes_of(state);
     for (const std::size_t size : {std::size_t{0}, std::size_t{7}, bytes.size() / 2, bytes.size() - 1})
-        EXPECT_THROW(state_of(bytes.substr(0, size)), InputError) << size;
+        EXPECT_THROW(read_state<RunState>(bytes.substr(0, size)), InputError) << size;
 }
 
 TEST(RunState, StaysWhereARunIsRefused) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const Sensor sensor = floor_grid(2), other = floor_grid(3);
     RunState state;
     RunOptions options = options_of("light-paths", 1 << 15);
@@ -215,7 +182,7 @@ class Interrupted final : public estimators::Estimator {
 /// A run that was interrupted in its first batch has begun some replicates: a result needs 8 of them, and
 /// takes these alone, also where another run goes on with them.
 TEST(RunState, MayLackReplicates) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const rays::RayCaster caster(scene);
     const std::vector<Sensor> sensors{floor_grid(1)};
     const RunOptions options;
@@ -239,7 +206,7 @@ TEST(RunState, MayLackReplicates) {
 
 /// Parts that ended at different numbers of paths: each strand is continued from where it is.
 TEST(RunState, OfPartsThatEndElsewhereGoesOn) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const Sensor sensor = floor_grid(2);
     RunOptions more = options_of("light-paths", 1 << 16), fewer = options_of("light-paths", 1 << 15);
     RunState whole;
@@ -257,7 +224,7 @@ TEST(RunState, OfDamagedBytesIsRefused) {
     constexpr std::size_t most = std::size_t{1} << 20;  // kMostUnits
     const auto is_read = [](const RunPlan& plan) {
         try {
-            state_of(bytes_of({plan, {}}));
+            read_state<RunState>(bytes_of(RunState{plan, {}}));
             return true;
         } catch (const InputError&) {
             return false;
@@ -287,7 +254,7 @@ TEST(RunState, OfDamagedBytesIsRefused) {
 }
 
 TEST(RunState, OfAGridIsCompleteFromThePacesOn) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const Sensor sensor = floor_grid(8);
     RunState state;
     RunOptions options = options_of("guided", 8);

@@ -7,19 +7,10 @@
 
 #include "materials/phong.h"
 #include "run/run.h"
-#include "support/scene_builder.h"
+#include "support/continued_runs.h"
 
 namespace stilb::run {
 namespace {
-
-/// A room with a lamp below its ceiling and a box.
-Scene room_with_box() {
-    Scene scene;
-    add_object(scene, Box{{0, 0, 0}, {3, 3, 3}}, diffuse(0.5));
-    add_object(scene, Box{{1.7, 0.6, 0.001}, {2.5, 1.4, 0.7}}, diffuse(0.5));
-    add_area_light(scene, Rectangle{{1.1, 1.1, 2.99}, {0, 0.8, 0}, {0.8, 0, 0}}, Rgb::grey(5000));
-    return scene;
-}
 
 /// Point lights, whose light paths have little noise.
 Scene room_with_point_lights() {

@@ -31,8 +31,10 @@ struct ConnectedVertex : EmittingPoint {
     bool directional;  ///< the BRDF depends on direction
 };
 
+using Bands = std::array<Floats, kBands>;
+
 struct alignas(64) TileSums {
-    std::array<Floats, kBands> band{};
+    Bands band{};
     Floats largest{};
 };
 
@@ -80,20 +82,103 @@ void add_visible_directional(const ConnectedVertex& node, const PointTile& tile,
     }
 }
 
-/// Constant responses are multiplied here, once for a block of vertices; others are in the sums.
-/// `add_shares(reading, received, response, reflections)`: adds what the channels get of what a receiver
-/// gets.
-template <typename AddShares>
-void flush(const PointTile& tile, TileSums& sums, Tally& readings, const AddShares& add_shares) {
-    for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
-        const Rgb response = tile.response_of(i);
-        const Rgb received{{sums.band[0][i], sums.band[1][i], sums.band[2][i]}};
-        readings.sum[tile.readings[i]] += response * received;
-        add_shares(tile.readings[i], received, response, tile.receivers[i].reflections());
-        double& largest = readings.largest[tile.readings[i]];
-        largest = std::max(largest, response.luminance() * double{sums.largest[i]});
+struct alignas(64) ChannelSums {
+    Bands band{};
+};
+
+STILB_INLINED void add_share(const Bands& __restrict received, const Rgb& share, Bands& __restrict sums) {
+    const auto s0 = static_cast<float>(share[0]), s1 = static_cast<float>(share[1]),
+               s2 = static_cast<float>(share[2]);
+    for (int i = 0; i < kPacketWidth; ++i) {
+        sums[0][i] += s0 * received[0][i], sums[1][i] += s1 * received[1][i],
+            sums[2][i] += s2 * received[2][i];
     }
-    sums = {};
+}
+
+/// Adds what a tile receives to each channel, by its share, after so many more reflections.
+STILB_VECTORIZED void spread(const Bands& __restrict received, const Rgb* __restrict shares,
+                             const transport::Channels& channels, int reflections,
+                             ChannelSums* __restrict sums) {
+    channels.for_all_after(reflections, [&](std::size_t channel, std::size_t after) {
+        add_share(received, shares[channel], sums[after].band);
+    });
+}
+
+/// What the receivers of a tile get from the points of a block. Where there are channels, it is kept by
+/// these.
+class BlockSums {
+  public:
+    explicit BlockSums(const transport::Channels* channels)
+        : channels_(channels), of_channels_(channels ? channels->count() : 0), shares_(of_channels_.size()) {}
+
+    /// `add(sums)`: adds what the receivers get from a point.
+    template <typename Add>
+    void add(const EmittingPoint& point, const Add& add) {
+        add(whole_);
+        if (!channels_) return;
+        if (point.shares) {
+            spread(whole_.band, point.shares->data(), *channels_, point.reflections - 1, of_channels_.data());
+        } else {
+            add_share(whole_.band, Rgb::grey(1),
+                      of_channels_[channels_->of(point.light, point.reflections)].band);
+        }
+        whole_.band = {};
+    }
+
+    /// Adds the sums to the readings. Constant responses are multiplied here, once for a block; others are in
+    /// the sums.
+    void flush(const PointTile& tile, Tally& readings) {
+        for (std::size_t i = 0; i < tile.receivers.size(); ++i) {
+            const Rgb response = tile.response_of(i);
+            readings.sum[tile.readings[i]] += response * received(tile, i, response, readings);
+            double& largest = readings.largest[tile.readings[i]];
+            largest = std::max(largest, response.luminance() * double{whole_.largest[i]});
+        }
+        whole_ = {};
+        std::ranges::fill(of_channels_, ChannelSums{});
+    }
+
+  private:
+    static Rgb of_lane(const Bands& bands, std::size_t i) {
+        return {{bands[0][i], bands[1][i], bands[2][i]}};
+    }
+
+    /// What a receiver gets; adds its shares to the channels.
+    Rgb received(const PointTile& tile, std::size_t i, const Rgb& response, Tally& readings) {
+        if (!channels_) return of_lane(whole_.band, i);
+        Rgb sum;
+        for (std::size_t c = 0; c < shares_.size(); ++c) {
+            shares_[c] = of_lane(of_channels_[c].band, i);
+            sum += shares_[c];
+        }
+        channels_->add(std::span<const Rgb>(shares_), response, tile.receivers[i].reflections(),
+                       tile.readings[i], readings.parts);
+        return sum;
+    }
+
+    const transport::Channels* channels_;
+    TileSums whole_;  ///< with channels: its largest ones alone
+    std::vector<ChannelSums> of_channels_;
+    std::vector<Rgb> shares_;  ///< of a receiver
+};
+
+/// Connects points to the receivers of a tile. `add_visible(point, packet, lanes, g_per_m2, sums)`: adds what
+/// these get.
+template <typename Point, typename AddVisible>
+void connect_all(const rays::RayCaster& caster, const PointTile& tile, std::span<const Point> points,
+                 BlockSums& block, Tally& sums, const AddVisible& add_visible) {
+    RayPacket packet;
+    LaneMask lanes;
+    alignas(64) Floats g_per_m2;
+    for (std::size_t n = 0; n < points.size(); ++n) {
+        const Point& point = points[n];
+        if (connect(point.origin, point.reflections, tile, packet, lanes, g_per_m2)) {
+            sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
+            caster.occlude(packet, lanes);
+            block.add(point, [&](TileSums& to) { add_visible(point, packet, lanes, g_per_m2, to); });
+        }
+        if (ends_block(n, points.size())) block.flush(tile, sums);
+    }
 }
 
 ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3& center) {
@@ -101,10 +186,13 @@ ConnectedVertex connected_vertex(const transport::LightVertex& node, const Vec3&
     const auto* diffuse = is_smooth ? nullptr : node.material->get_if<Diffuse>();
     const Rgb coefficient =
         diffuse ? node.flux_lm * diffuse->reflectance * std::numbers::inv_pi : node.flux_lm;
-    ConnectedVertex result{
-        {SegmentOrigin(node, center), node.only_by_light || !diffuse ? 0.0f : 1.0f, {}, node.shares},
-        &node,
-        diffuse == nullptr};
+    ConnectedVertex result{{.origin = SegmentOrigin(node, center),
+                            .split = node.only_by_light || !diffuse ? 0.0f : 1.0f,
+                            .reflections = node.reflections,
+                            .light = node.light,
+                            .shares = node.shares},
+                           &node,
+                           diffuse == nullptr};
     for (std::size_t b = 0; b < kBands; ++b) result.coefficient[b] = static_cast<float>(coefficient[b]);
     return result;
 }
@@ -116,72 +204,28 @@ void Connections::collect(std::span<const transport::LightVertex> nodes, Tally& 
     connected_vertices.reserve(nodes.size());
     for (const transport::LightVertex& node : nodes)
         connected_vertices.push_back(connected_vertex(node, caster_.center()));
-    // Vertices of one channel, or of the same shares, one after another, so that their sums are flushed
-    // together.
-    const auto channel_of = [&](const ConnectedVertex& vertex) {
-        return std::pair(channels_->groups.of_light[vertex.node->light], vertex.node->reflections);
-    };
-    if (channels_) std::ranges::stable_sort(connected_vertices, {}, channel_of);
-    const auto ends_channel = [&](std::size_t n) {
-        return channels_ && n + 1 < connected_vertices.size() &&
-               (channel_of(connected_vertices[n]) != channel_of(connected_vertices[n + 1]) ||
-                connected_vertices[n].shares != connected_vertices[n + 1].shares);
-    };
-    const auto flush_channel = [&](const PointTile& tile, TileSums& tile_sums,
-                                   const transport::LightVertex& node) {
-        flush(tile, tile_sums, sums,
-              [&](std::size_t reading, const Rgb& received, const Rgb& response, int reflections) {
-                  if (!channels_) return;
-                  if (node.shares)
-                      return channels_->add(std::span(*node.shares), response * received,
-                                            node.reflections - 1 + reflections, reading, sums.parts);
-                  const transport::LightPart part{received, node.light, node.reflections};
-                  channels_->add({&part, 1}, response, reflections, reading, sums.parts);
-              });
-    };
-    RayPacket packet;
-    LaneMask lanes;
-    alignas(64) Floats g_per_m2;
+    BlockSums block(channels_);
     for (const PointTile& tile : tiles_) {
         monitor_.require_more();
-        TileSums tile_sums;
-        for (std::size_t n = 0; n < connected_vertices.size(); ++n) {
-            const ConnectedVertex& node = connected_vertices[n];
-            if (connect(node.origin, node.node->reflections, tile, packet, lanes, g_per_m2)) {
-                sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
-                caster_.occlude(packet, lanes);
-                if (node.directional || tile.directional) {
-                    add_visible_directional(node, tile, packet, lanes, g_per_m2, tile_sums);
-                } else {
-                    add_visible(node, tile, packet, lanes, g_per_m2, tile_sums);
-                }
-            }
-            if (ends_block(n, connected_vertices.size()) || ends_channel(n))
-                flush_channel(tile, tile_sums, *node.node);
-        }
+        connect_all(caster_, tile, std::span<const ConnectedVertex>(connected_vertices), block, sums,
+                    [&](const ConnectedVertex& node, const RayPacket& packet, const LaneMask& lanes,
+                        const Floats& g_per_m2, TileSums& to) {
+                        if (node.directional || tile.directional) {
+                            add_visible_directional(node, tile, packet, lanes, g_per_m2, to);
+                        } else {
+                            add_visible(node, tile, packet, lanes, g_per_m2, to);
+                        }
+                    });
     }
 }
 
 void connect_points(const rays::RayCaster& caster, const PointTile& tile,
                     std::span<const EmittingPoint> points, Tally& sums, const transport::Channels* channels) {
-    RayPacket packet;
-    LaneMask lanes;
-    alignas(64) Floats g_per_m2;
-    TileSums tile_sums;
-    for (std::size_t n = 0; n < points.size(); ++n) {
-        if (connect(points[n].origin, 1, tile, packet, lanes, g_per_m2)) {
-            sums.rays += static_cast<std::uint64_t>(-std::accumulate(lanes.begin(), lanes.end(), 0));
-            caster.occlude(packet, lanes);
-            add_visible(points[n], tile, packet, lanes, g_per_m2, tile_sums);
-        }
-        if (!channels && !ends_block(n, points.size())) continue;
-        flush(tile, tile_sums, sums,
-              [&](std::size_t reading, const Rgb& received, const Rgb& response, int reflections) {
-                  if (channels)
-                      channels->add(std::span(*points[n].shares), response * received, reflections, reading,
-                                    sums.parts);
-              });
-    }
+    BlockSums block(channels);
+    connect_all(
+        caster, tile, points, block, sums,
+        [&](const EmittingPoint& point, const RayPacket& packet, const LaneMask& lanes,
+            const Floats& g_per_m2, TileSums& to) { add_visible(point, tile, packet, lanes, g_per_m2, to); });
 }
 
 }  // namespace stilb::estimators

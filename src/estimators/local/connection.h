@@ -44,7 +44,9 @@ struct EmittingPoint {
     /// Divides the k of the receivers' tile; 0: w = 1.
     float split = 1;
     std::array<float, kBands> coefficient{};  ///< luminance over density: receivers get it times w G
-    /// The shares of the channels in it, as those of a LightVertex; null where nobody asks.
+    int reflections = 1;                      ///< of the light, that at the point included
+    std::uint32_t light = 0;                  ///< that it comes from, where there are no shares
+    /// As those of a LightVertex.
     std::shared_ptr<const std::vector<Rgb>> shares = nullptr;
 };
 /// Adds the light of points to the receivers of a tile, whose responses must be constant. Counts rays.

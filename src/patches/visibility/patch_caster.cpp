@@ -86,7 +86,7 @@ struct PatchCaster::Implementation {
         if (exact != nullptr) {
             for (const Object& object : exact->objects) add_exact(object.shape);
         }
-        rtcCommitScene(scene);
+        rays::commit(scene);
     }
 
     ~Implementation() {

@@ -12,16 +12,17 @@ namespace stilb::transport {
 
 /// Light that shadow rays of a tile bring in.
 struct DirectLight::ShadowRays {
+    struct Received {
+        std::size_t lane, light;
+        Rgb value;  ///< without shadows
+    };
     std::array<rays::Segment, kPacketWidth> segments;
-    std::array<Rgb, kPacketWidth> received;  ///< without shadows
-    std::array<std::size_t, kPacketWidth> lanes, lights;
+    std::array<Received, kPacketWidth> received;
     std::size_t count = 0;
 
     void add(std::size_t lane, const rays::Segment& segment, const Rgb& unshadowed, std::size_t light) {
-        lights[count] = light;
         segments[count] = segment;
-        received[count] = unshadowed;
-        lanes[count++] = lane;
+        received[count++] = {lane, light, unshadowed};
     }
     void trace(const rays::RayCaster& caster, TileLight& light) const {
         if (count == 0) return;
@@ -29,7 +30,7 @@ struct DirectLight::ShadowRays {
         caster.transmittances(std::span(segments).first(count), rays::Coherence::coherent,
                               std::span(transmittances).first(count));
         for (std::size_t i = 0; i < count; ++i)
-            light.add(lanes[i], received[i] * transmittances[i], lights[i]);
+            light.add(received[i].lane, received[i].value * transmittances[i], received[i].light);
     }
 };
 
@@ -45,16 +46,13 @@ double DirectLight::Remainder::rays(std::size_t receivers) const {
 DirectLight::DirectLight(const Scene& scene, const rays::RayCaster& caster, const LightSampler& lights)
     : scene_(scene), caster_(caster), lights_(lights), has_many_lamps_(lights.chooses_extended()) {
     for (std::size_t i = 0; i < scene.lights.size(); ++i) {
-        const Light& light = scene.lights[i];
         if (lights.is_point(i)) {
             points_.push_back(i);
-        } else if (auto lamp = UniformLamp::of(scene, light, caster.lift())) {
+        } else if (auto lamp = UniformLamp::of(scene, i, caster.lift())) {
             lamps_.push_back(std::move(*lamp));
-            of_lamps_.push_back(i);
         } else if (auto opening = OpeningLamp::of(scene, i, lights, caster.lift())) {
             openings_.push_back(std::move(*opening));
-            of_openings_.push_back(i);
-        } else if (has_many_lamps_ && location_of(light) == LightLocation::surface) {
+        } else if (has_many_lamps_ && location_of(scene.lights[i]) == LightLocation::surface) {
             surfaces_.push_back(i);
         } else {
             others_.push_back(i);
@@ -106,8 +104,8 @@ const LampHull& DirectLight::hull_of(std::size_t lamp) const {
 }
 
 std::size_t DirectLight::light_of(std::size_t lamp) const {
-    if (lamp < lamps_.size()) return of_lamps_[lamp];
-    return lamp < lamp_count() ? of_openings_[lamp - lamps_.size()] : surfaces_[lamp - lamp_count()];
+    if (lamp < lamps_.size()) return lamps_[lamp].light();
+    return lamp < lamp_count() ? openings_[lamp - lamps_.size()].light() : surfaces_[lamp - lamp_count()];
 }
 
 /// Of all of the lamp, where that is known.
@@ -162,7 +160,8 @@ void DirectLight::add_few_lamps(std::span<const Receiver> tile, Remainder& remai
             continue;
         }
         for (std::size_t i = 0; i < tile.size(); ++i) {
-            if (whole_lx[i].max() > 0) light.add(i, whole_lx[i] * *tile[i].constant_response(), of_lamps_[l]);
+            if (whole_lx[i].max() > 0)
+                light.add(i, whole_lx[i] * *tile[i].constant_response(), lamps_[l].light());
         }
     }
     for (std::size_t o = 0; o < openings_.size(); ++o) {

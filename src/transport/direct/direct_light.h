@@ -140,9 +140,9 @@ class DirectLight {
     const LightSampler& lights_;
     std::vector<UniformLamp> lamps_;
     std::vector<OpeningLamp> openings_;
-    /// Numbers of lights: of the uniform lamps, of the openings, of surfaces without closed form where lamps
-    /// are many, of point lights, and of all others.
-    std::vector<std::size_t> of_lamps_, of_openings_, surfaces_, points_, others_;
+    /// Numbers of lights: of surfaces without closed form where lamps are many, of point lights, and of all
+    /// others.
+    std::vector<std::size_t> surfaces_, points_, others_;
     LightTree tree_of_points_;
     std::optional<rays::ShaftQuery> shafts_;
     bool has_many_lamps_;  ///< so many that some are chosen

@@ -20,6 +20,7 @@ class OpeningLamp {
     static std::optional<OpeningLamp> of(const Scene& scene, std::size_t light, const LightSampler& lights,
                                          const Lift& lift);
 
+    std::size_t light() const { return light_; }
     const LampHull& hull() const { return hull_; }
     /// Whether some element's front faces the point, on the side that it faces.
     bool may_light(const SurfacePoint& at) const;
@@ -36,7 +37,7 @@ class OpeningLamp {
         : light_(light), lights_(lights), elements_(std::move(elements)), hull_(object, elements_, lift) {}
     Rgb sum_lx(const SurfacePoint& at, const math::GaussLegendre& rule) const;
 
-    std::size_t light_;
+    std::size_t light_;  ///< its number
     const LightSampler& lights_;
     std::vector<lights::EmitterElement> elements_;
     LampHull hull_;

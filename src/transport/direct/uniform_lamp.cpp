@@ -6,19 +6,20 @@
 
 namespace stilb::transport {
 
-std::optional<UniformLamp> UniformLamp::of(const Scene& scene, const Light& light, Lift lift) {
-    const auto emission = lights::uniform_emission(light);
+std::optional<UniformLamp> UniformLamp::of(const Scene& scene, std::size_t light, const Lift& lift) {
+    const auto emission = lights::uniform_emission(scene.lights[light]);
     if (!emission) return std::nullopt;
     std::vector<lights::EmitterElement> elements =
         lights::emitter_elements(scene.object(emission->object).shape);
     if (elements.size() > kMostElements || !std::ranges::all_of(elements, lights::has_closed_form))
         return std::nullopt;
-    return UniformLamp(emission->object, emission->luminance_cd_m2, std::move(elements), lift);
+    return UniformLamp(light, emission->object, emission->luminance_cd_m2, std::move(elements), lift);
 }
 
-UniformLamp::UniformLamp(ObjectId object, const Rgb& luminance_cd_m2,
+UniformLamp::UniformLamp(std::size_t light, ObjectId object, const Rgb& luminance_cd_m2,
                          std::vector<lights::EmitterElement> elements, const Lift& lift)
-    : luminance_cd_m2_(luminance_cd_m2),
+    : light_(light),
+      luminance_cd_m2_(luminance_cd_m2),
       elements_(std::move(elements)),
       lift_(lift),
       hull_(object, elements_, lift) {}

@@ -15,9 +15,10 @@ class UniformLamp {
   public:
     static constexpr std::size_t kMostElements = 32;
 
-    /// Nothing where the light has no closed form, or too many elements for one.
-    static std::optional<UniformLamp> of(const Scene& scene, const Light& light, Lift lift);
+    /// Of a light of the scene; nothing where it has no closed form, or too many elements for one.
+    static std::optional<UniformLamp> of(const Scene& scene, std::size_t light, const Lift& lift);
 
+    std::size_t light() const { return light_; }
     const LampHull& hull() const { return hull_; }
     /// The illuminance without shadows, as if elements hid nothing of each other: exact.
     Rgb illuminance_lx(const SurfacePoint& at) const {
@@ -27,10 +28,11 @@ class UniformLamp {
     std::optional<DirectSample> sample(const SurfacePoint& at, math::SampleStream& stream) const;
 
   private:
-    UniformLamp(ObjectId object, const Rgb& luminance_cd_m2, std::vector<lights::EmitterElement> elements,
-                const Lift& lift);
+    UniformLamp(std::size_t light, ObjectId object, const Rgb& luminance_cd_m2,
+                std::vector<lights::EmitterElement> elements, const Lift& lift);
     double projected_solid_angle_sr(const SurfacePoint& at) const;
 
+    std::size_t light_;  ///< its number
     Rgb luminance_cd_m2_;
     std::vector<lights::EmitterElement> elements_;
     Lift lift_;

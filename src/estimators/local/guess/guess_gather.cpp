@@ -139,12 +139,10 @@ Rgb GuessGather::gathered_cd_m2(const GuessedLight& light, std::size_t lane, flo
     if (side == patches::kNoSide) return luminance;
     const Sight sight = shares.sights.empty() ? Sight::uncertain : shares.sights[side];
     const double by_rays = sight == Sight::uncertain ? double{1 - 1 / (1 + shares.split * g_over_k)} : 1;
-    guess_.add_shares(light, lane, by_rays, of_lane);
+    guess_.add_shares(side, light.barycentric_of(lane), by_rays, of_lane);
     if (sight != Sight::certain) return luminance * by_rays;
-    transport::LightSum mean = guess_.mean(side);
-    mean *= Rgb::grey(-1);
-    add_shares(mean, of_lane);
-    return luminance + mean.whole;
+    guess_.add_shares(side, LightGuess::kMiddle, -1, of_lane);
+    return luminance + -1. * guess_.luminance_at(side, LightGuess::kMiddle);
 }
 
 void GuessGather::flush(const PointTile& tile, const Sums& sums, double weight, Tally& readings) const {

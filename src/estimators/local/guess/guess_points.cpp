@@ -95,11 +95,11 @@ void GuessPoints::select(const Choice& choice, const std::array<double, 2>& u,
         const SurfacePoint point = side_point(patches, caster_, side, at_side);
         const transport::LightSum guessed = guess_.at(side, at_side);
         const Rgb light = guessed.whole * (double{patches.areas_m2[patches.patch_of(side)]} * times);
-        points.push_back(
-            {SegmentOrigin(point, caster_.center()),
-             choice.split,
-             {static_cast<float>(light[0]), static_cast<float>(light[1]), static_cast<float>(light[2])},
-             guessed.relative_shares()});
+        points.push_back({.origin = SegmentOrigin(point, caster_.center()),
+                          .split = choice.split,
+                          .coefficient = {static_cast<float>(light[0]), static_cast<float>(light[1]),
+                                          static_cast<float>(light[2])},
+                          .shares = guessed.relative_shares()});
     });
 }
 

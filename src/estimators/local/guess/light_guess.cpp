@@ -58,6 +58,18 @@ std::vector<std::uint8_t> traced_objects(const Scene& scene) {
     return traced;
 }
 
+/// `corners`: those of a triangle, each with `count` luminances.
+STILB_VECTORIZED void add_interpolated(const std::array<float, kBands>* __restrict corners,
+                                       const std::array<float, 3>& weights, std::size_t count,
+                                       Rgb* __restrict sums) {
+    const float w0 = weights[0], w1 = weights[1], w2 = weights[2];
+    for (std::size_t i = 0; i < count; ++i) {
+        for (std::size_t b = 0; b < kBands; ++b)
+            sums[i][b] +=
+                double{w0 * corners[i][b] + w1 * corners[count + i][b] + w2 * corners[2 * count + i][b]};
+    }
+}
+
 }  // namespace
 
 SurfacePoint side_point(const patches::Patches& patches, const rays::RayCaster& caster, std::uint32_t side,
@@ -248,8 +260,8 @@ void LightGuess::interpolate(const std::vector<transport::LightSum>& luminance_o
     std::vector<std::uint8_t> is_lit(sides);
     for (const std::uint32_t side : lit_sides_) is_lit[side] = 1;
     const patches::VertexInterpolation interpolation(patches());
-    // `stride`: from one side's corners to the next one's.
-    const auto set_corners = [&](const auto& luminance_of, CornerLuminances* corners, std::size_t stride) {
+    // `corner_of(side, corner)`: where its luminance is kept.
+    const auto set_corners = [&](const auto& luminance_of, const auto& corner_of) {
         std::vector<Rgb> luminances;
         for (const transport::LightSum& sum : luminance_of_sides) luminances.push_back(luminance_of(sum));
         for (const std::uint32_t first : {0u, static_cast<std::uint32_t>(patches().count())}) {
@@ -260,21 +272,25 @@ void LightGuess::interpolate(const std::vector<transport::LightSum>& luminance_o
                 for (std::size_t c = 0; c < 3; ++c) {
                     const Rgb& value = at_vertices[patches().corners[p][c]];
                     for (std::size_t b = 0; b < kBands; ++b)
-                        corners[(first + p) * stride][c][b] = static_cast<float>(value[b]);
+                        corner_of(first + p, c)[b] = static_cast<float>(value[b]);
                 }
             }
         }
     };
     corners_.resize(sides);
-    set_corners([](const transport::LightSum& sum) { return sum.whole; }, corners_.data(), 1);
+    set_corners([](const transport::LightSum& sum) { return sum.whole; },
+                [&](std::size_t side, std::size_t corner) -> Luminance& { return corners_[side][corner]; });
     const std::size_t channels = channels_ ? channels_->count() : 0;
-    corners_of_shares_.resize(sides * channels);
+    corners_of_shares_.resize(sides * 3 * channels);
     for (std::size_t c = 0; c < channels; ++c)
         set_corners([c](const transport::LightSum& sum) { return sum.shares[c]; },
-                    corners_of_shares_.data() + c, channels);
+                    [&](std::size_t side, std::size_t corner) -> Luminance& {
+                        return corners_of_shares_[(side * 3 + corner) * channels + c];
+                    });
 }
 
-Rgb LightGuess::interpolated(const CornerLuminances& corners, const math::Barycentric& at) {
+Rgb LightGuess::luminance_at(std::uint32_t side, const math::Barycentric& at) const {
+    const std::array<Luminance, 3>& corners = corners_[side];
     Rgb luminance;
     for (std::size_t b = 0; b < kBands; ++b)
         luminance[b] =
@@ -284,7 +300,7 @@ Rgb LightGuess::interpolated(const CornerLuminances& corners, const math::Baryce
 
 transport::LightSum LightGuess::at(std::uint32_t side, const math::Barycentric& at) const {
     transport::LightSum sum(channels_);
-    sum.whole = interpolated(corners_[side], at);
+    sum.whole = luminance_at(side, at);
     add_shares(side, at, 1, sum.shares);
     return sum;
 }
@@ -292,20 +308,17 @@ transport::LightSum LightGuess::at(std::uint32_t side, const math::Barycentric& 
 transport::LightSum LightGuess::seen(const GuessedLight& light, std::size_t lane) const {
     transport::LightSum sum(channels_);
     sum.whole = light.luminance_of(lane);
-    add_shares(light, lane, 1, sum.shares);
+    add_shares(light.sides[lane], light.barycentric_of(lane), 1, sum.shares);
     return sum;
-}
-
-void LightGuess::add_shares(const GuessedLight& light, std::size_t lane, double weight,
-                            std::vector<Rgb>& shares) const {
-    if (!shares.empty() && light.sides[lane] != patches::kNoSide)
-        add_shares(light.sides[lane], light.barycentric_of(lane), weight, shares);
 }
 
 void LightGuess::add_shares(std::uint32_t side, const math::Barycentric& at, double weight,
                             std::vector<Rgb>& shares) const {
-    for (std::size_t c = 0; c < shares.size(); ++c)
-        shares[c] += interpolated(corners_of_shares_[side * shares.size() + c], at) * weight;
+    if (shares.empty() || side == patches::kNoSide) return;
+    add_interpolated(&corners_of_shares_[side * 3 * shares.size()],
+                     {static_cast<float>(weight * at.b0), static_cast<float>(weight * at.b1),
+                      static_cast<float>(weight * at.b2)},
+                     shares.size(), shares.data());
 }
 
 void LightGuess::go_to_owners(patches::PatchHits& hits) const {
@@ -337,7 +350,7 @@ void LightGuess::look(rays::RayHitPacket& packet, const LaneMask& lanes, rays::C
         const RayPacket& ray = packet.ray;
         light.cosine[i] = std::abs(normal.x * ray.direction_x[i] + normal.y * ray.direction_y[i] +
                                    normal.z * ray.direction_z[i]);
-        const CornerLuminances& corners = corners_[side];
+        const std::array<Luminance, 3>& corners = corners_[side];
         const float b1 = hits.b1[i], b2 = hits.b2[i], b0 = 1 - b1 - b2;
         for (std::size_t b = 0; b < kBands; ++b)
             light.luminance[b][i] = b0 * corners[0][b] + b1 * corners[1][b] + b2 * corners[2][b];

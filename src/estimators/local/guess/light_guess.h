@@ -82,10 +82,14 @@ class LightGuess {
     // ray of a lane.
 
     transport::LightSum at(std::uint32_t side, const math::Barycentric& at) const;
-    transport::LightSum mean(std::uint32_t side) const { return at(side, {1. / 3, 1. / 3, 1. / 3}); }
+    static constexpr math::Barycentric kMiddle{1. / 3, 1. / 3, 1. / 3};
+    transport::LightSum mean(std::uint32_t side) const { return at(side, kMiddle); }
     transport::LightSum seen(const GuessedLight& light, std::size_t lane) const;
-    /// Adds the shares of that, times a weight, without another list. `shares`: by channel, or empty.
-    void add_shares(const GuessedLight& light, std::size_t lane, double weight,
+    /// The whole of that at a point of a side.
+    Rgb luminance_at(std::uint32_t side, const math::Barycentric& at) const;
+    /// Adds the shares at a point of a side, times a weight, without another list. `shares`: by channel, or
+    /// empty.
+    void add_shares(std::uint32_t side, const math::Barycentric& at, double weight,
                     std::vector<Rgb>& shares) const;
     double lit_area_m2() const { return lit_area_m2_; }
     /// The guess along rays, for lanes that are set; the packet as RayCaster::closest() takes and leaves it.
@@ -93,8 +97,7 @@ class LightGuess {
               GuessedLight& light) const;
 
   private:
-    /// Of a side, for three corners.
-    using CornerLuminances = std::array<std::array<float, kBands>, 3>;
+    using Luminance = std::array<float, kBands>;
 
     struct Solver;
 
@@ -102,9 +105,6 @@ class LightGuess {
         return is_traced_object_[index_of(object)] != 0 || is_traced_material_[index_of(material)] != 0;
     }
     void interpolate(const std::vector<transport::LightSum>& luminance_of_sides);
-    void add_shares(std::uint32_t side, const math::Barycentric& at, double weight,
-                    std::vector<Rgb>& shares) const;
-    static Rgb interpolated(const CornerLuminances& corners, const math::Barycentric& at);
     /// Takes hits of shared places to the owners.
     void go_to_owners(patches::PatchHits& hits) const;
 
@@ -113,9 +113,9 @@ class LightGuess {
     patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
     SharedPlaces shared_;
     std::vector<std::uint32_t> lit_sides_;
-    std::vector<CornerLuminances> corners_;  ///< per side
+    std::vector<std::array<Luminance, 3>> corners_;  ///< per side
     const transport::Channels* channels_;
-    std::vector<CornerLuminances> corners_of_shares_;  ///< sides x channels
+    std::vector<Luminance> corners_of_shares_;  ///< sides x corners x channels
     double lit_area_m2_ = 0;
 };
 

@@ -194,9 +194,11 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
             }
             const Rgb illuminance_lx = light.luminance_of(i) * per_ray;
             missing_lx.whole += illuminance_lx;
-            guess_.add_shares(light, i, per_ray, missing_lx.shares);
-            chosen.add(directions[i], illuminance_lx,
-                       [&](transport::LightSum& sum) { guess_.add_shares(light, i, per_ray, sum.shares); });
+            const auto add_shares = [&](transport::LightSum& sum) {
+                guess_.add_shares(light.sides[i], light.barycentric_of(i), per_ray, sum.shares);
+            };
+            add_shares(missing_lx);
+            chosen.add(directions[i], illuminance_lx, add_shares);
         }
     }
     missing_lx.reflect();
