@@ -271,7 +271,7 @@ TEST(RunState, OfAGridIsCompleteFromThePacesOn) {
 
 /// Parts that begin without a plan make the same one, each by itself, also where samples decide the paces.
 TEST(RunState, OfPartsWithoutAPlanIsThatOfTheWhole) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const Sensor sensor = floor_grid(8);
     const RunOptions options = options_of("guided", 8 * 32);
     RunState whole;
@@ -281,14 +281,14 @@ TEST(RunState, OfPartsWithoutAPlanIsThatOfTheWhole) {
     for (std::size_t number = 0; number < 5; ++number) {
         RunState part;
         measure_part(scene, {&sensor, 1}, options, {number, 5}, part);
-        merged ? merged->merge(state_of(bytes_of(part))) : void(merged = part);
+        merged ? merged->merge(read_state<RunState>(bytes_of(part))) : void(merged = part);
     }
     EXPECT_EQ(bytes_of(*merged), bytes_of(whole));
 }
 
 /// The replicates of one seed are added to those of the other: means by samples, and the errors of as many.
 TEST(RunState, OfSeveralSeedsHasTheirSamples) {
-    const Scene scene = lit_room();
+    const Scene scene = room_with_box();
     const Sensor sensor = floor_grid(2);
     std::vector<RunState> states(2);
     std::vector<RunResult> results;
@@ -300,7 +300,7 @@ TEST(RunState, OfSeveralSeedsHasTheirSamples) {
     RunState merged = states[0];
     merged.merge(states[1]);
     EXPECT_EQ(merged.seeds(), (std::vector<std::uint64_t>{1, 2}));
-    merged = state_of(bytes_of(merged));
+    merged = read_state<RunState>(bytes_of(merged));
     EXPECT_THROW(merged.merge(states[1]), std::invalid_argument) << "its seed is there";
     const RunResult of_both = result_of(scene, {&sensor, 1}, options_of("light-paths", 1 << 15), merged);
     EXPECT_EQ(of_both.samples, results[0].samples + results[1].samples);
