@@ -133,18 +133,17 @@ std::vector<std::string> RunFlags::given() const {
     return names;
 }
 
+bool RunFlags::is_given(std::string_view flag) const {
+    return std::ranges::any_of(flags_, [&](const Flag& own) { return own.name() == flag && own.is_given(); });
+}
+
 RunOptions RunFlags::over(RunOptions options) const {
-    const auto is_given = [&](std::string_view key) {
-        const auto has_key = [&](const Flag& flag) { return flag.name().substr(2) == key; };
-        const auto found = std::ranges::find_if(flags_, has_key);
-        return found != flags_.end() && found->is_given();
-    };
-    if (is_given("paths")) {
+    if (is_given("--paths")) {
         options.error.reset();
         options.time_s.reset();
     }
     for_each_field<api::Options>([&](const auto& option) {
-        if (is_given(option.key)) options.*option.member = typed_.*option.member;
+        if (is_given(fmt::format("--{}", option.key))) options.*option.member = typed_.*option.member;
     });
     require_known_to(estimators::find_estimator(options.method));
     options.patches = patch_options();

@@ -40,6 +40,7 @@ class RunFlags {
     void add_those_of_solutions(Command& command, std::optional<int>& degree);
     /// Adds those of patches and first shot, which add_to() leaves to `stilb help patches`.
     void add_those_of_patches(Command& command);
+    bool is_given(std::string_view flag) const;
     /// The names of the typed flags, except --threads and --quiet.
     std::vector<std::string> given() const;
     /// The options with the typed flags applied. --paths alone drops the file's error and time: exactly so

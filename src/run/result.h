@@ -183,10 +183,13 @@ std::optional<Verdict> verdict_of(const RunResult& result);
 struct Pixels {
     std::vector<std::array<float, 3>> rgb_cd_m2;  ///< linear Rec. 709
     std::vector<float> standard_error_cd_m2;      ///< of the luminance; empty with one replicate
+    /// The parts of the light that are kept apart; they add up to the whole.
+    std::vector<std::vector<std::array<float, 3>>> layers_cd_m2{};
 };
 
 struct RenderResult : RunSummary {
     Pixels pixels;
+    std::vector<std::string> layers;            ///< the names of those of the pixels
     std::vector<std::array<float, 3>> normals;  ///< of the surface in the pixel's middle; NaN where none is
     std::vector<float> depth_m;                 ///< its distance; NaN likewise
     /// The mean over the pixels: fewer than `samples` where some of them take fewer.

@@ -25,6 +25,7 @@
 #include "io/results/solution_file.h"
 #include "io/scene/overrides.h"
 #include "io/text/file_kind.h"
+#include "io/text/table.h"
 #include "io/text/text.h"
 #include "lights/colour_temperature.h"
 #include "rays/ray_caster.h"
@@ -164,8 +165,15 @@ RenderResult rendered(const RenderRequest& request, const io::SceneFile& file, c
         return render_solution(file.scene, sensor, std::move(stored->solution), request.factors, threads,
                                &progress, &watch_for_interrupt());
     }
-    const RunOptions options =
-        with_picture_reserve(request.flags.over(file.run), sensor.camera()->resolution);
+    RunOptions options = with_picture_reserve(request.flags.over(file.run), sensor.camera()->resolution);
+    if (io::kind_of_name(request.output) != io::FileKind::exr_picture &&
+        !io::is_standard_output(request.output)) {
+        if (request.flags.is_given("--by"))
+            throw InputError(
+                fmt::format("--by writes layers into an OpenEXR picture: end the name of -o {} in .exr.",
+                            request.output));
+        options.by = "none";  // of the scene file, for readings
+    }
     origin.method = options.method;
     origin.seed = options.seed;
     StateFile state_file(request.state, "render", line, file.sources, [&] {
@@ -358,7 +366,11 @@ void add_render(CommandLine& line) {
         "Take this value instead of the scene file's (materials.wall.reflectance=0.4); with --from also a "
         "factor for the light of a group or of a lamp (lamp=0.4, lamp=[1, 0.8, 0.5])");
     request->state.add_to(command);
-    request->flags.add_to(command, {"target", "by"});
+    request->flags.add_to(command, {"target"});
+    command.find("--by").description(
+        "Write also a layer for each light or group of lights (light), or each number of reflections "
+        "(bounce), into a "
+        "picture .exr: Combined_NAME.R ...");
     command.run([request, &line] {
         request->command = line.text();
         return run_render(*request, line);

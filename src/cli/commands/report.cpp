@@ -80,6 +80,7 @@ void require_page(const std::string& output, std::span<const std::filesystem::pa
 RunOptions view_options(const ReportRequest& request, const RunOptions& of_readings, const Camera& camera) {
     RunOptions options = of_readings;
     options.error.reset();
+    options.by = "none";  // the views have no layers
     options.paths = request.view_passes;
     options.time_s = request.view_time_s;
     if (!options.paths && !options.time_s) options.time_s = kUsualViewTime_s;

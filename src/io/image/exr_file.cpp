@@ -33,11 +33,12 @@ class Channels {
   public:
     Channels(int width, const Imath::V2i& first) : width_(static_cast<std::size_t>(width)), first_(first) {}
 
-    void add(const char* name, const float* values, std::size_t stride = 1) {
+    void add(const std::string& name, const float* values, std::size_t stride = 1) {
         buffer_.insert(name, Imf::Slice::Make(Imf::FLOAT, values, first_, static_cast<std::int64_t>(width_),
                                               0, stride * sizeof(float), stride * sizeof(float) * width_));
     }
-    void add(const std::array<const char*, 3>& names, const std::vector<std::array<float, 3>>& values) {
+    template <typename Name>
+    void add(const std::array<Name, 3>& names, const std::vector<std::array<float, 3>>& values) {
         for (std::size_t i = 0; i < 3; ++i) add(names[i], values.front().data() + i, 3);
     }
     const Imf::FrameBuffer& buffer() const { return buffer_; }
@@ -47,6 +48,13 @@ class Channels {
     Imath::V2i first_;
     Imf::FrameBuffer buffer_;
 };
+
+/// "Combined_panel.R" and so on, as Cycles names the layers of light groups. A dot would divide the name.
+std::array<std::string, 3> names_of(const PictureLayer& layer) {
+    std::string name = "Combined_" + layer.name;
+    std::ranges::replace(name, '.', '_');
+    return {name + ".R", name + ".G", name + ".B"};
+}
 
 Imf::Chromaticities to_chromaticities(const Primaries& primaries) {
     const auto point = [&](std::size_t i) {
@@ -195,6 +203,7 @@ std::string to_exr(const Picture& picture) {
     if (!picture.standard_error_cd_m2.empty()) channels.add(kErrorName, picture.standard_error_cd_m2.data());
     if (!picture.normals.empty()) channels.add(kNormalNames, picture.normals);
     if (!picture.depth_m.empty()) channels.add(kDepthName, picture.depth_m.data());
+    for (const PictureLayer& layer : picture.layers) channels.add(names_of(layer), layer.rgb_cd_m2);
 
     Imf::Header header = header_of(picture);
     for (auto it = channels.buffer().begin(); it != channels.buffer().end(); ++it)

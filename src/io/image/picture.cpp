@@ -181,6 +181,8 @@ Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrig
         origin.first_shot = name_of(result.patches->first_shot);
     }
     Picture picture = picture_of(result.pixels, camera, origin);
+    for (std::size_t layer = 0; layer < result.layers.size(); ++layer)
+        picture.layers.push_back({result.layers[layer], result.pixels.layers_cd_m2[layer]});
     picture.normals = result.normals;
     picture.depth_m = result.depth_m;
     return picture;

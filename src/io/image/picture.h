@@ -35,6 +35,12 @@ struct PictureOrigin {
     bool operator==(const PictureOrigin&) const = default;
 };
 
+/// A part of the light of a picture: of a lamp, of a group of lamps, or after so many reflections.
+struct PictureLayer {
+    std::string name;
+    std::vector<std::array<float, 3>> rgb_cd_m2;
+};
+
 /// Pixels row by row from the top, from left to right. A channel has a value for each pixel; an optional
 /// channel may be empty. NaN marks a pixel without a value.
 struct Picture {
@@ -43,6 +49,7 @@ struct Picture {
     std::vector<float> standard_error_cd_m2;      ///< optional; of the luminance
     std::vector<std::array<float, 3>> normals;    ///< optional; unit vectors in the scene's coordinates
     std::vector<float> depth_m;                   ///< optional; distance from the camera
+    std::vector<PictureLayer> layers;             ///< optional; they add up to the whole
     std::optional<Camera> camera;                 ///< its resolution is the picture's
     PictureOrigin origin;
 

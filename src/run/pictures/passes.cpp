@@ -23,7 +23,7 @@ Passes::Passes(const estimators::Estimator& estimator, const std::vector<bool>& 
       blind_(blind),
       sink_(sink),
       sums_(sums),
-      pixels_(blind.size()) {}
+      pixels_(blind.size() * (1 + sums.layers())) {}
 
 double Passes::attained_error() const {
     return sums_.attained_error(blind_) + kBiasesOfMostPixels * bias().at_most;
@@ -78,7 +78,8 @@ std::vector<PicturePaces::Part> Passes::parts_of_pass() const {
 }
 
 void Passes::sample(const estimators::PixelBlock& block, const estimators::PicturePass& pass) {
-    estimators::Tally samples(block.pixels());
+    const std::size_t layers = sums_.layers();
+    estimators::Tally samples(block.pixels(), 0, layers);
     pass.sample(block, samples);
     invalid_ += samples.invalid;
     const auto width = static_cast<std::size_t>(sums_.resolution()[0]);
@@ -86,9 +87,13 @@ void Passes::sample(const estimators::PixelBlock& block, const estimators::Pictu
         const std::size_t x =
             static_cast<std::size_t>(block.left) + i % static_cast<std::size_t>(block.width);
         const std::size_t y = static_cast<std::size_t>(block.top) + i / static_cast<std::size_t>(block.width);
-        for (std::size_t b = 0; b < kBands; ++b) {
-            pixels_[y * width + x][b] = static_cast<float>(samples.sum[i][b]);
-        }
+        const auto set = [&](std::size_t layer, const Rgb& sample) {
+            for (std::size_t b = 0; b < kBands; ++b)
+                pixels_[layer * blind_.size() + y * width + x][b] = static_cast<float>(sample[b]);
+        };
+        set(0, samples.sum[i]);
+        for (std::size_t layer = 0; layer < layers; ++layer)
+            set(1 + layer, samples.parts[layer * samples.sum.size() + i]);
     }
 }
 

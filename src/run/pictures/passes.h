@@ -71,7 +71,7 @@ class Passes final : public Work {
     const std::vector<bool>& blind_;
     PictureSink* sink_;
     PictureSums& sums_;
-    std::vector<std::array<float, 3>> pixels_;  ///< of the last pass
+    std::vector<std::array<float, 3>> pixels_;  ///< of the last pass, and of its layers
     double samples_ = 0;                        ///< of all pixels
     std::atomic<std::uint64_t> invalid_ = 0;
 };

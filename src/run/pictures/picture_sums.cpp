@@ -13,12 +13,13 @@
 
 namespace stilb::run {
 
-PictureSums::PictureSums(const std::array<int, 2>& resolution, RunPlan plan)
+PictureSums::PictureSums(const std::array<int, 2>& resolution, RunPlan plan, std::size_t layers)
     : plan_(std::move(plan)),
       resolution_(resolution),
       pixels_(static_cast<std::size_t>(resolution[0]) * static_cast<std::size_t>(resolution[1])),
+      layers_(layers),
       colours_(plan_.has_paces ? plan_.replicates : 1),
-      rgb_(pixels_ * colours_),
+      rgb_(pixels_ * colours_ * (1 + layers_)),
       luminance_(pixels_ * plan_.replicates) {
     if (!plan_.paces.empty()) paces_.emplace(resolution_, cells_key(), plan_.paces);
 }
@@ -31,6 +32,7 @@ void PictureSums::write(ByteWriter& bytes) const {
     plan_.write(bytes);
     for (const int size : resolution_) bytes.add(std::int32_t{size});
     bytes.add(passes_);
+    bytes.add(std::uint64_t{layers_});
     bytes.add_list(rgb_);
     bytes.add_list(luminance_);
 }
@@ -40,17 +42,18 @@ PictureSums PictureSums::read(ByteReader& bytes) {
     std::array<int, 2> resolution{};
     for (int& size : resolution) size = bytes.take<std::int32_t>("the size of the picture");
     const auto passes = bytes.take<std::uint64_t>("the number of passes");
+    const auto layers = bytes.take<std::uint64_t>("the number of layers");
     auto rgb = bytes.take_list<std::vector<std::array<float, 3>>>("the colours");
     auto luminance = bytes.take_list<std::vector<float>>("the luminances");
     const std::uint64_t pixels = luminance.size() / plan.replicates;
     if (std::ranges::min(resolution) < 1 ||
         pixels != std::uint64_t{static_cast<std::uint32_t>(resolution[0])} *
                       static_cast<std::uint32_t>(resolution[1]) ||
-        luminance.size() != pixels * plan.replicates ||
-        rgb.size() != pixels * (plan.has_paces ? plan.replicates : 1))
+        luminance.size() != pixels * plan.replicates || layers > rgb.size() ||
+        rgb.size() != pixels * (plan.has_paces ? plan.replicates : 1) * (1 + layers))
         bytes.fail("the sums are not those of the pixels");
     try {
-        PictureSums sums(resolution, std::move(plan));
+        PictureSums sums(resolution, std::move(plan), layers);
         sums.passes_ = passes;
         sums.rgb_ = std::move(rgb);
         sums.luminance_ = std::move(luminance);
@@ -64,7 +67,10 @@ void PictureSums::add(const std::vector<std::array<float, 3>>& pass) {
     const std::size_t replicate = passes_ % plan_.replicates, colour = passes_ % colours_;
     parallel_for_parts(pixels_, [&](std::size_t first, std::size_t last) {
         for (std::size_t i = first; i < last; ++i) {
-            for (std::size_t b = 0; b < kBands; ++b) rgb_[i * colours_ + colour][b] += pass[i][b];
+            for (std::size_t layer = 0; layer <= layers_; ++layer) {
+                std::array<float, 3>& sum = rgb_[(layer * pixels_ + i) * colours_ + colour];
+                for (std::size_t b = 0; b < kBands; ++b) sum[b] += pass[layer * pixels_ + i][b];
+            }
             luminance_[i * plan_.replicates + replicate] +=
                 static_cast<float>(Rgb{{pass[i][0], pass[i][1], pass[i][2]}}.luminance());
         }
@@ -113,11 +119,12 @@ double PictureSums::luminance_of_replicate_cd_m2(std::uint64_t replicate, std::s
     return double{luminance_[pixel * plan_.replicates + replicate]} * scale / weight;
 }
 
-std::array<float, 3> PictureSums::rgb_cd_m2(std::size_t pixel) const {
+std::array<float, 3> PictureSums::rgb_cd_m2(std::size_t pixel,
+                                            std::span<const std::array<float, 3>> sums) const {
     std::array<float, 3> sum{};
     for (std::uint64_t c = 0; c < std::min(colours_, replicates()); ++c) {
         const auto scale = static_cast<float>(share_of(c, pixel).scale);
-        for (std::size_t b = 0; b < kBands; ++b) sum[b] += rgb_[pixel * colours_ + c][b] * scale;
+        for (std::size_t b = 0; b < kBands; ++b) sum[b] += sums[pixel * colours_ + c][b] * scale;
     }
     const float per_weight = 1 / static_cast<float>(weights());
     for (float& band : sum) band *= per_weight;
@@ -186,10 +193,16 @@ double PictureSums::attained_error(const std::vector<bool>& blind) const {
 
 Pixels PictureSums::pixels() const {
     Pixels pixels;
-    pixels.rgb_cd_m2.resize(pixels_);
-    parallel_for_parts(pixels_, [&](std::size_t first, std::size_t last) {
-        for (std::size_t i = first; i < last; ++i) pixels.rgb_cd_m2[i] = rgb_cd_m2(i);
-    });
+    const auto set = [&](std::size_t layer, std::vector<std::array<float, 3>>& rgb) {
+        const auto sums = std::span(rgb_).subspan(layer * pixels_ * colours_, pixels_ * colours_);
+        rgb.resize(pixels_);
+        parallel_for_parts(pixels_, [&](std::size_t first, std::size_t last) {
+            for (std::size_t i = first; i < last; ++i) rgb[i] = rgb_cd_m2(i, sums);
+        });
+    };
+    set(0, pixels.rgb_cd_m2);
+    pixels.layers_cd_m2.resize(layers_);
+    for (std::size_t layer = 0; layer < layers_; ++layer) set(1 + layer, pixels.layers_cd_m2[layer]);
     if (replicates() > 1) pixels.standard_error_cd_m2 = errors().standard_errors;
     return pixels;
 }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "base/bytes.h"
@@ -22,7 +23,8 @@ class PictureSums {
   public:
     PictureSums() = default;
     /// With one replicate, no errors are estimated.
-    PictureSums(const std::array<int, 2>& resolution, RunPlan plan);
+    /// `layers`: parts of the light that are kept apart.
+    PictureSums(const std::array<int, 2>& resolution, RunPlan plan, std::size_t layers = 0);
 
     const RunPlan& plan() const { return plan_; }
     const std::array<int, 2>& resolution() const { return resolution_; }
@@ -33,8 +35,10 @@ class PictureSums {
     std::uint64_t passes() const { return passes_; }
     std::uint64_t replicates() const { return std::min<std::uint64_t>(passes_, plan_.replicates); }
 
-    /// `pass`: a sample of each pixel, 0 for those that take none.
+    /// `pass`: a sample of each pixel, 0 for those that take none, and likewise of each layer, one after
+    /// another.
     void add(const std::vector<std::array<float, 3>>& pass);
+    std::size_t layers() const { return layers_; }
 
     /// Decides the paces, for a plan that has them; all replicates have as many passes by now.
     void set_paces(const std::vector<bool>& blind);
@@ -64,7 +68,8 @@ class PictureSums {
     /// (picture_paces.h).
     Share share_of(std::uint64_t replicate, std::size_t pixel) const;
     double weights() const;  ///< of all replicates
-    std::array<float, 3> rgb_cd_m2(std::size_t pixel) const;
+    /// `sums`: pixels x colours.
+    std::array<float, 3> rgb_cd_m2(std::size_t pixel, std::span<const std::array<float, 3>> sums) const;
     std::uint64_t taken(std::uint64_t replicate, std::size_t pixel) const;
     /// The variance of a pixel's value, in units of that of one sample.
     double variance_per_sample(std::size_t pixel) const;
@@ -75,8 +80,9 @@ class PictureSums {
     RunPlan plan_;
     std::array<int, 2> resolution_{};
     std::size_t pixels_ = 0;
+    std::size_t layers_ = 0;
     std::size_t colours_ = 1;  ///< sums of colours for each pixel: one, or one for each replicate
-    std::vector<std::array<float, 3>> rgb_;  ///< pixels x colours
+    std::vector<std::array<float, 3>> rgb_;  ///< pixels x colours, and the same of each layer
     std::vector<float> luminance_;           ///< pixels x replicates
     std::uint64_t passes_ = 0;
     std::optional<PicturePaces> paces_;

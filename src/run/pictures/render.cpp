@@ -16,6 +16,7 @@
 #include "run/level_of_detail.h"
 #include "run/pictures/passes.h"
 #include "run/pictures/picture_comparison.h"
+#include "run/readings/division.h"
 #include "run/run.h"
 #include "run/schedule.h"
 #include "run/streams.h"
@@ -55,10 +56,11 @@ void add_geometry(const Camera& camera, const rays::RayCaster& caster, RenderRes
 
 void add_means(const std::vector<bool>& blind, RenderResult& result) {
     double luminance = 0, error = 0, pixels = 0;
-    auto& [rgb_cd_m2, standard_error_cd_m2] = result.pixels;
+    auto& [rgb_cd_m2, standard_error_cd_m2, layers_cd_m2] = result.pixels;
     for (std::size_t i = 0; i < blind.size(); ++i) {
         if (blind[i]) {
             rgb_cd_m2[i] = {kNoValue, kNoValue, kNoValue};
+            for (auto& layer : layers_cd_m2) layer[i] = {kNoValue, kNoValue, kNoValue};
             if (!standard_error_cd_m2.empty()) standard_error_cd_m2[i] = kNoValue;
             continue;
         }
@@ -104,6 +106,21 @@ void add_patch_error(const PictureComparison::Bias& bias, RenderResult& result) 
             100 * bias.at_most));
 }
 
+/// The layers of a picture are what "by" asks for. Throws InputError where the method keeps light together.
+LightDivision picture_division(const Scene& scene, const RunOptions& options, bool lights_patches) {
+    RunOptions own = options;
+    own.light_scenes.clear();
+    LightDivision division(scene, own);
+    if (division.channels() && lights_patches) {
+        throw InputError(
+            fmt::format("by: method {} with its patches keeps the light of lamps and of bounces together. "
+                        "Pictures with layers: path, "
+                        "light-paths, guided, auto.",
+                        options.method));
+    }
+    return division;
+}
+
 /// Begins a picture, or continues one whose sums have a plan. `options`: `asked` with defaults.
 RenderResult render_by(const PictureMethod& method, const PreparedScene& scene, const Sensor& sensor,
                        const RunOptions& asked, const RunOptions& options, PictureSink* sink,
@@ -112,10 +129,12 @@ RenderResult render_by(const PictureMethod& method, const PreparedScene& scene, 
     Session session(scene, {&sensor, 1}, asked, options, sink, interrupt);
     std::vector<Warning> of_scene = session.scene_warnings({&sensor, 1});
     const std::vector<bool> blind = sensors::blind_pixels(camera);
+    const LightDivision division = picture_division(scene.scene(), options, method.lights_patches);
     RenderResult result;
     session.on_threads([&] {
         estimators::Problem problem = session.problem();
         problem.camera = camera;
+        problem.channels = division.channels();
         const auto estimator = method.make(problem);
         add_geometry(camera, session.caster(), result);  // before the samples, so that it counts in the time
         std::optional<PictureComparison> comparison;
@@ -124,14 +143,19 @@ RenderResult render_by(const PictureMethod& method, const PreparedScene& scene, 
                                math::KeyOf<PictureComparison::Stream>{
                                    key_of_seed(options.seed).derived(RunStream::picture_comparison)});
         if (sums.plan().technique.empty())
-            sums = PictureSums(camera.resolution, method.plan(estimator->technique(), options.seed));
-        if (sums.resolution() != camera.resolution)
-            throw std::invalid_argument("the sums are those of a picture of another size");
+            sums = PictureSums(camera.resolution, method.plan(estimator->technique(), options.seed),
+                               division.count());
+        if (sums.resolution() != camera.resolution || sums.layers() != division.count())
+            throw std::invalid_argument(
+                "the sums are those of a picture of another size, or with other layers");
         Passes passes(*estimator, blind, sums, sink, session.monitor(), comparison ? &*comparison : nullptr);
         session.run(passes, result);
         session.describe(*estimator, result);
         result.replicates = static_cast<int>(sums.replicates());
         result.pixels = sums.pixels();
+        for (const LightDivision::Part& part : division.shares()) result.layers.push_back(part.name);
+        if (division.count() == 0 && !result.layers.empty())
+            result.pixels.layers_cd_m2 = {result.pixels.rgb_cd_m2};
         result.samples_per_pixel = sums.samples_per_pixel(blind);
         add_means(blind, result);
         if (comparison) add_patch_error(passes.bias(), result);
