@@ -5,7 +5,7 @@ import json
 import math
 import unittest
 
-from command_line import ROOM, CommandLineTest, run
+from command_line import CAMERA, ROOM, CommandLineTest, run
 
 SCENES = """
 [lights.spot]
@@ -111,6 +111,16 @@ class LightScenesTest(CommandLineTest):
         header = (self.folder / "out/desk.csv").read_text().splitlines()[0]
         self.assertIn("illuminance_lx_of_0,standard_error_lx_of_0", header)
         self.assertIn("illuminance_lx_of_7+", header)
+
+    def test_pictures_have_layers(self):
+        self.scene = self.write("room.toml", ROOM + SCENES + CAMERA.replace("[640, 480]", "[16, 12]"))
+        picture = self.folder / "view.exr"
+        result = run("render", self.scene, "--by", "light", "--paths", "4", "-o", picture)
+        self.assertEqual(result.returncode, 0, result.stderr)
+        header = picture.read_bytes()[:4096]
+        for name in (b"Combined_bulb.R", b"Combined_spots.G", b"SE.Y"):
+            self.assertIn(name, header)
+        self.expect_wrong_input(["render", self.scene, "--by", "light", "-o", self.folder / "view.png"], "end the name", ".exr")
 
     def test_check_counts_scenes_that_name_their_sensors(self):
         required = ROOM + "require = { mean = 0.5 }\n" + SCENES
