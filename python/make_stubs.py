@@ -49,11 +49,14 @@ from . import _stilb
 
 DESCRIPTION: str
 
-class Limits(TypedDict, total=False):
+class SightLimits(TypedDict, total=False):
     """How a run is made and when it stops: `help(stilb.Scene)`."""
 
 {}
-def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options: ...
+class Limits(SightLimits, total=False):
+    directions: str | None
+
+def options(scene: _stilb.Scene, limits: SightLimits) -> _stilb.Options: ...
 '''
 
 
@@ -89,7 +92,7 @@ def main():
     module, names, meanings = (importlib.import_module(f"stilb.{name}") for name in ("_stilb", "_names", "_meanings"))
     text, names = classes(module.part_types(), names.class_name, meanings.docstring)
     (folder / "parts.pyi").write_text(f"{HEAD}{text}\n__all__ = {sorted(names)}\n", encoding="utf-8")
-    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, *_ in module.described_options())
+    keys = "".join(f"    {key}: {kind} | None\n" for key, kind, *_ in module.described_options() if key != "directions")
     (folder / "options.pyi").write_text(OPTIONS.format(keys), encoding="utf-8")
     stubgen.main(["-q", "-r", "-m", "stilb._stilb", "-O", str(folder)])
 

@@ -49,6 +49,11 @@ Option(std::string_view, Value Owner::*, Limits, std::string_view, std::string_v
 
 /// The names of all methods; those that "auto" chooses from come last.
 std::span<const std::string_view> method_names();
+// Those of methods on patches.
+std::span<const std::string_view> first_shot_names();
+std::span<const std::string_view> window_names();
+std::span<const std::string_view> visibility_names();
+std::span<const std::string_view> directions_names();
 
 /// fields() describes them. Without error, time and paths, measure() stops at an error of 1 % or after a
 /// minute, render() and solve() after a minute.
@@ -61,6 +66,9 @@ struct Options {
     std::optional<int> bounces;
     std::optional<double> patch_m;
     std::string by = "none";
+    std::optional<std::string> first_shot, window;
+    std::optional<int> resolution;
+    std::optional<std::string> visibility, directions;
     std::uint64_t seed = 1;
     int threads = 0;
 
@@ -93,6 +101,21 @@ struct Options {
                 "by", &Options::by, Names{division_names}, "", "NAME",
                 "State also what each light or group of lights gives (light), or each number of reflections "
                 "(bounce), with errors; default: none"},
+            Option{"first_shot", &Options::first_shot, Names{first_shot_names}, "", "NAME",
+                   "First shot that replaces small lights: auto, none, classical, diffuse, incoming, "
+                   "on-the-fly (default: auto, which is incoming; path: none)"},
+            Option{
+                "window", &Options::window, Names{window_names}, "", "NAME",
+                "Shape of item buffers on area lights, and on patches of radiosity: cube (its rear half is "
+                "empty), hemicube (default) or tetrahedron; point lights always have cubes"},
+            Option{
+                "resolution", &Options::resolution, WholeRange{0, 16384}, "", "R",
+                "Pixels along an edge of item buffers (default: by the number of patches; 64 on patches of "
+                "radiosity)"},
+            Option{"visibility", &Options::visibility, Names{visibility_names}, "", "NAME",
+                   "Visibility backend: rays (default) or opengl"},
+            Option{"directions", &Options::directions, Names{directions_names}, "", "NAME",
+                   "Directions of the bundles in a step of ray-bundle: single, pair or frame (default)"},
             Option{"seed", &Options::seed, WholeRange{0, std::numeric_limits<std::int64_t>::max()}, "", "N",
                    "Seed of the random numbers: another seed gives an independent result"},
             Option{"threads", &Options::threads, WholeRange{0, 4096}, "", "N",

@@ -62,7 +62,10 @@ class Solution {
     std::shared_ptr<const Data> data_;
 };
 
-/// Solves a scene by ray bundles, whatever the options' method. Throws as measure().
-Solution solve(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {});
+/// Solves a scene by ray bundles, whatever the options' method. `degree`: of the directional basis that
+/// stores the light on glossy surfaces, from 0 to 12; a higher one is sharper and takes more memory. Throws
+/// as measure().
+Solution solve(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {},
+               const std::optional<int>& degree = {});
 
 }  // namespace stilb::api

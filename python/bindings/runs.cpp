@@ -66,11 +66,11 @@ void add_runs(nb::module_& module) {
         nb::arg("scene"), nb::arg("camera"), nb::arg("options"), nb::arg("progress").none());
     module.def(
         "solve",
-        [](const Scene& scene, const Options& options, nb::object progress) {
+        [](const Scene& scene, const Options& options, nb::object progress, std::optional<int> degree) {
             return CalledRun(std::move(progress))(
-                [&](const Control& control) { return solve(scene, options, control); });
+                [&](const Control& control) { return solve(scene, options, control, degree); });
         },
-        nb::arg("scene"), nb::arg("options"), nb::arg("progress").none());
+        nb::arg("scene"), nb::arg("options"), nb::arg("progress").none(), nb::arg("degree").none());
 
     nb::class_<Solution>(module, "Solution")
         .def_static("load", &Solution::load, nb::arg("path"), nb::call_guard<nb::gil_scoped_release>())

@@ -64,6 +64,16 @@ template <typename Limits>
 void add_option(nb::class_<Options>& options, const auto& option, const Limits&) {
     options.def_rw(option.key.data(), option.member, nb::arg().none());
 }
+void add_option(nb::class_<Options>& options, const auto& option, const Names&) {
+    options.def_prop_rw(
+        option.key.data(), [option](const Options& all) { return all.*option.member; },
+        // Not std::optional: GCC 12 warns of nanobind's conversion.
+        [option](Options& all, const char* text) {
+            using Value = std::decay_t<decltype(all.*option.member)>;
+            all.*option.member = text ? Value(text) : Options{}.*option.member;
+        },
+        nb::arg().none());
+}
 void add_option(nb::class_<Options>& options, const auto& option, const Share&) {
     using Typed = std::optional<std::variant<double, std::string>>;
     options.def_prop_rw(

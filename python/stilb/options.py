@@ -8,18 +8,25 @@ from typing import Any, TypedDict
 from . import _stilb
 from ._stilb import InputError
 
-__all__ = ["DESCRIPTION", "Limits", "options"]
+__all__ = ["DESCRIPTION", "Limits", "SightLimits", "options"]
 
 DESCRIBED = {key: described for key, *described in _stilb.described_options()}
 MEANINGS = {key: meaning for key, (_, meaning, _) in DESCRIBED.items()}
 DESCRIPTION = "\n".join(
-    textwrap.fill(meaning, 124, initial_indent=f"    {key:9} ", subsequent_indent=14 * " ")
+    textwrap.fill(meaning, 124, initial_indent=f"    {key:10}  ", subsequent_indent=16 * " ")
     for key, meaning in MEANINGS.items())
 
-Limits = TypedDict("Limits", {key: Any for key in MEANINGS}, total=False)  # type: ignore[misc]
+# `Scene.luminance` has directions of its own: those of patches are in the section `run` there.
+SightLimits = TypedDict("SightLimits", {key: Any for key in MEANINGS if key != "directions"}, total=False)  # type: ignore[misc]
 
 
-def options(scene: _stilb.Scene, limits: Limits) -> _stilb.Options:
+class Limits(SightLimits, total=False):
+    directions: str | None
+
+
+
+
+def options(scene: _stilb.Scene, limits: SightLimits) -> _stilb.Options:
     """The options of the scene's section `run`, with these instead where they are given, as on the command line."""
     given = {name: value for name, value in limits.items() if value is not None}
     unknown = given.keys() - MEANINGS

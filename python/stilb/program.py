@@ -27,8 +27,8 @@ def run(command: str, *arguments: object, **flags: Any) -> None:
     if ended.returncode == 2:
         raise InputError(message)
     if ended.returncode == 3:
-        warnings.warn(f"a run of stilb {command} ended before its goal, as what it wrote says. {message}".rstrip(), ResultWarning,
-                      stacklevel=3)
+        text = f"a run of stilb {command} ended before its goal, as what it wrote says. {message}".rstrip()
+        warnings.warn(text, ResultWarning, stacklevel=3)
     elif ended.returncode != 0:
         raise RuntimeError(f"{' '.join(words)}: {message or f'exit code {ended.returncode}'}")
 

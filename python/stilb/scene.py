@@ -17,7 +17,7 @@ from numpy.typing import ArrayLike
 from . import _stilb, program
 from ._stilb import InputError
 from .estimates import ResultWarning
-from .options import DESCRIPTION, Limits, options
+from .options import DESCRIPTION, Limits, SightLimits, options
 from .parts import Mesh, Part, part_of
 from .progress import Progress, called
 from .results import Image, Reading, Result, Run, warn_of
@@ -93,8 +93,8 @@ class Scene:
     1 % or a minute:
 
 {DESCRIPTION}
-    progress  True for a line on stderr, or a function that gets a `stilb.Progress` and may return False to end the run
-              with its result so far
+    progress    True for a line on stderr, or a function that gets a `stilb.Progress` and may return False to end the run
+                with its result so far
 
     Ctrl-C ends a run with KeyboardInterrupt, whose attribute `result` has the result so far (or None). Other Python threads
     go on during a run. Warnings of a run, and that it did not converge, are Python warnings (`stilb.ResultWarning`).
@@ -268,7 +268,7 @@ class Scene:
         return self._along(_stilb.illuminance, points, normals, progress, limits)
 
     def luminance(self, positions: ArrayLike, directions: ArrayLike, *, progress: Progress = None,
-                  **limits: Unpack[Limits]) -> Reading:
+                  **limits: Unpack[SightLimits]) -> Reading:
         """The luminance [cd/m2] that is seen from `positions` along `directions`, of shapes (..., 3) or (3,)."""
         return self._along(_stilb.luminance, positions, directions, progress, limits)
 
@@ -278,12 +278,16 @@ class Scene:
         chosen = options(scene, limits)
         return _warned(called(progress, lambda sink: _stilb.render(scene, camera, chosen, sink), Image))
 
-    def solve(self, *, progress: Progress = None, **limits: Unpack[Limits]) -> Solution:
-        """The light on all surfaces, from which pictures of all cameras with other lamps are made."""
+    def solve(self, *, degree: int | None = None, progress: Progress = None, **limits: Unpack[Limits]) -> Solution:
+        """The light on all surfaces, from which pictures of all cameras with other lamps are made.
+
+        `degree`: of the directional basis that stores the light on glossy surfaces, 0 to 12; a higher one is sharper and
+        takes more memory.
+        """
         scene = self._scene()
         chosen = options(scene, limits)
         solved = copy.copy(self)
-        return _warned(called(progress, lambda sink: _stilb.solve(scene, chosen, sink),
+        return _warned(called(progress, lambda sink: _stilb.solve(scene, chosen, sink, degree),
                               lambda solution: Solution(solution, solved)))
 
     def export(self, folder: str | os.PathLike[str], format: str) -> list[Path]:
@@ -371,7 +375,7 @@ class Scene:
         return builder.build()
 
     def _along(self, measure: Callable[..., _stilb.Result], positions: ArrayLike, directions: ArrayLike,
-               progress: Progress, limits: Limits) -> Reading:
+               progress: Progress, limits: SightLimits) -> Reading:
         points, rays = _rays(positions, directions)
         scene = self._scene()
         chosen = options(scene, limits)

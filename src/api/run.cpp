@@ -10,12 +10,14 @@
 #include "api/run_state.h"
 #include "api/scene_data.h"
 #include "api/stored.h"
+#include "base/field.h"
 #include "base/version.h"
 #include "base/warning.h"
 #include "io/image/picture_file.h"
 #include "io/results/results_writer.h"
 #include "io/results/run_file.h"
 #include "io/results/solution_file.h"
+#include "math/zernike.h"
 #include "run/solve.h"
 #include "scene/light_groups.h"
 #include "scene/whites.h"
@@ -395,14 +397,18 @@ void Solution::save(const std::filesystem::path& path) const {
     write_solution_file(io::stored_solution(data_->result, data_->result.solution, file, path), path);
 }
 
-Solution solve(const Scene& scene, const std::optional<Options>& options, const Control& control) {
+Solution solve(const Scene& scene, const std::optional<Options>& options, const Control& control,
+               const std::optional<int>& degree) {
+    constexpr int most = math::ZernikeBasis::kMostDegree;
+    if (degree && (*degree < 0 || *degree > most))
+        fail_at("degree", fmt::format("{} is not allowed. Allowed: from 0 to {}.", *degree, most));
     const io::SceneFile& file = scene.data().file;
     std::optional<Options> by_bundles = options ? options : scene.options();
     by_bundles->method = "ray-bundle";
     const RunOptions run = run_options(scene, by_bundles);
     ControlSink sink(control);
-    SolveResult result =
-        run::solve(scene.data().prepared, run, run::kDefaultDegree, &sink, control.interrupt);
+    SolveResult result = run::solve(scene.data().prepared, run, degree.value_or(run::kDefaultDegree), &sink,
+                                    control.interrupt);
     const Summary all = summary(result, file.warnings);
     return Solution(
         std::make_shared<const Solution::Data>(Solution::Data{scene, all, std::move(result), run.threads}));

@@ -79,13 +79,27 @@ std::vector<std::string> Scene::sensors() const {
 
 Options Scene::options() const { return data_->file.run; }
 
+namespace {
+
+/// Throws InputError where an option differs from the scene's, and the method does not go by it.
+void require_effect(const Options& options, const Options& of_scene) {
+    for_each_field<Options>([&](const auto& option) {
+        if (options.*option.member == of_scene.*option.member) return;
+        if (const auto lack = run::lack_of_effect(options, run::flag_of(option.key), "first_shot"))
+            throw InputError(fmt::format("{} {}", option.key, *lack));
+    });
+}
+
+}  // namespace
+
 RunOptions run_options(const Scene& scene, const std::optional<Options>& options) {
     RunOptions run = scene.data().file.run;
     if (!options) return run;
-    const bool sets_patches = options->patch_m && options->patch_m != run.patch_m;
+    const Options of_scene = run;
     static_cast<Options&>(run) = *options;
-    if (sets_patches && !estimators::find_estimator(run.method).lights_patches)
-        throw InputError(fmt::format("patch_m: method {} does not use patches.", run.method));
+    run::require_valid(run);
+    require_effect(run, of_scene);
+    run.patches = run::patch_options(run);
     return run;
 }
 

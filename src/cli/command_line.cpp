@@ -98,13 +98,20 @@ std::string wrong_count(const CLI::App& command, const CLI::ParseError& error) {
     return message;
 }
 
+/// The beginning of a message about a value: CLI11 does not name hidden flags.
+std::string missing_name(const CLI::Option& option) {
+    return option.get_group().empty() ? fmt::format("--{}: ", option.get_lnames().front()) : "";
+}
+
 /// The message for the arguments of a command. It names an unknown argument first, if there is one.
 std::string refusal(const CLI::App& app, const CLI::App& command, const CLI::ParseError& error) {
     if (const std::string extra = first_extra(app); !extra.empty()) return refusal_outside(extra, command);
     const std::string extra = first_extra(command);
     if (extra.empty()) {
         const bool is_of_value = dynamic_cast<const CLI::ValidationError*>(&error) != nullptr;
-        return is_of_value ? error.what() : wrong_count(command, error);
+        if (!is_of_value) return wrong_count(command, error);
+        const std::string_view message = error.what();
+        return std::string(message.substr(message.starts_with(": ") ? 2 : 0));
     }
     return is_flag(extra) ? no_flag(extra, command) : fmt::format("\"{}\" is one argument too many", extra);
 }
@@ -176,11 +183,11 @@ Flag& Flag::from_to(std::int64_t least, std::int64_t greatest) {
     // Ranges without a meaning for the user are not in --help.
     constexpr std::int64_t greatest_shown = 10'000;
     option_->check(CLI::Validator(
-        [least, greatest](const std::string& typed) -> std::string {
+        [least, greatest, option = option_](const std::string& typed) -> std::string {
             const auto number = io::parse_integer(typed);
             if (number && *number >= least && *number <= greatest) return "";
-            return fmt::format("{} is out of range. Give a whole number from {} to {}.", typed, least,
-                               greatest);
+            return fmt::format("{}{} is out of range. Give a whole number from {} to {}.",
+                               missing_name(*option), typed, least, greatest);
         },
         greatest <= greatest_shown ? fmt::format("{} to {}", least, greatest) : ""));
     return *this;
@@ -207,10 +214,10 @@ Flag& Flag::share(const Range& range) {
 }
 Flag& Flag::one_of(std::span<const std::string_view> names) {
     option_->check(CLI::Validator(
-        [names](const std::string& typed) -> std::string {
+        [names, option = option_](const std::string& typed) -> std::string {
             if (std::ranges::find(names, typed) != names.end()) return "";
-            return fmt::format("{} is not allowed.{} Allowed: {}.", io::in_quotes(typed),
-                               did_you_mean(typed, names), fmt::join(names, ", "));
+            return fmt::format("{}{} is not allowed.{} Allowed: {}.", missing_name(*option),
+                               io::in_quotes(typed), did_you_mean(typed, names), fmt::join(names, ", "));
         },
         ""));
     return *this;

@@ -25,6 +25,9 @@ constexpr const char* kPatchFlag = "--patch";
 /// Those that `stilb help patches` explains.
 constexpr std::array<const char*, 5> kHelpedFlags{"--first-shot", "--window", "--resolution", "--visibility",
                                                   "--directions"};
+/// Their keys, and that of kPatchFlag.
+constexpr std::array<std::string_view, 6> kPatchKeys{"patch",      "first_shot", "window",
+                                                     "resolution", "visibility", "directions"};
 
 void limit(Flag& flag, const Range& limits) { flag.within(limits); }
 void limit(Flag& flag, const api::WholeRange& limits) { flag.from_to(limits.min, limits.max); }
@@ -47,7 +50,8 @@ Flag add_option(Command& command, api::Options& options, std::string_view key) {
     std::optional<Flag> flag;
     for_each_field<api::Options>([&](const auto& option) {
         if (option.key != key) return;
-        flag = command.add(fmt::format("--{}", key), options.*option.member, std::string(option.meaning));
+        flag = command.add(fmt::format("--{}", run::flag_of(key)), options.*option.member,
+                           std::string(option.meaning));
         limit(*flag, option.limits);
         flag->value_name(std::string(option.placeholder));
     });
@@ -56,8 +60,10 @@ Flag add_option(Command& command, api::Options& options, std::string_view key) {
 
 void RunFlags::add_all_but(const std::vector<std::string_view>& left_out, Command& command) {
     for_each_field<api::Options>([&](const auto& option) {
-        if (option.key != "patch" && std::ranges::find(left_out, option.key) == left_out.end())
-            flags_.push_back(add_option(command, typed_, option.key));
+        const auto is_in = [&](const auto& keys) {
+            return std::ranges::find(keys, option.key) != keys.end();
+        };
+        if (!is_in(kPatchKeys) && !is_in(left_out)) flags_.push_back(add_option(command, typed_, option.key));
     });
     command.add("--quiet", quiet, "Print no progress and no warnings");
     command.add("--progress", progress,
@@ -95,25 +101,8 @@ void RunFlags::add_those_of_solutions(Command& command, std::optional<int>& degr
 void RunFlags::add_those_of_patches(Command& command) {
     const std::string group =
         "Patches and first shot (ray-bundle, radiosity; path with --first-shot; particles: only --patch)";
-    flags_.push_back(add_option(command, typed_, "patch").heading(group));
-    const auto add = [&](const char* name, auto& value, const std::string& text, const char* type) {
-        flags_.push_back(command.add(name, value, text).value_name(type).heading(group));
-    };
-    add("--first-shot", first_shot_,
-        "First shot that replaces small lights: auto, none, classical, diffuse, incoming, on-the-fly "
-        "(default: auto, which is incoming; path: none)",
-        "NAME");
-    add("--window", window_,
-        "Shape of item buffers on area lights, and on patches of radiosity: cube (its rear half is empty), "
-        "hemicube (default) or tetrahedron; point lights always have cubes",
-        "NAME");
-    add("--resolution", resolution_,
-        "Pixels along an edge of item buffers (default: by the number of patches; 64 on patches of "
-        "radiosity)",
-        "R");
-    add("--visibility", visibility_, "Visibility backend: rays (default) or opengl", "NAME");
-    add("--directions", directions_,
-        "Directions of the bundles in a step of ray-bundle: single, pair or frame (default)", "NAME");
+    for (const std::string_view key : kPatchKeys)
+        flags_.push_back(add_option(command, typed_, key).heading(group));
 }
 
 void add_patch_topic(CommandLine& line) {
@@ -143,10 +132,14 @@ RunOptions RunFlags::over(RunOptions options) const {
         options.time_s.reset();
     }
     for_each_field<api::Options>([&](const auto& option) {
-        if (is_given(fmt::format("--{}", option.key))) options.*option.member = typed_.*option.member;
+        if (is_given(fmt::format("--{}", run::flag_of(option.key))))
+            options.*option.member = typed_.*option.member;
     });
-    require_known_to(estimators::find_estimator(options.method));
-    options.patches = patch_options();
+    for (const std::string& flag : given()) {
+        if (const auto lack = run::lack_of_effect(options, flag.substr(2), "--first-shot"))
+            throw InputError(fmt::format("{} {}", flag, *lack));
+    }
+    options.patches = run::patch_options(options);
     return options;
 }
 
@@ -159,66 +152,6 @@ RunOptions with_picture_reserve(RunOptions options, const std::array<int, 2>& re
     // Seconds a pixel after the last pass. Two threads were measured.
     constexpr double kFinishing_s = 3e-7;
     return with_reserve(std::move(options), kFinishing_s * resolution[0] * resolution[1]);
-}
-
-namespace {
-
-constexpr std::array<std::string_view, 3> kWindowNames{"cube", "hemicube", "tetrahedron"};
-
-/// The value of `flag`, an enumerator with the index of its name; nothing where the flag was not typed.
-template <typename Enum>
-std::optional<Enum> read(const char* flag, const std::optional<std::string>& typed,
-                         std::span<const std::string_view> names) {
-    if (!typed) return std::nullopt;
-    const auto found = std::ranges::find(names, *typed);
-    if (found == names.end()) {
-        throw InputError(fmt::format("{} {}: there is no such value.{} Allowed: {}.", flag, *typed,
-                                     did_you_mean(*typed, names), fmt::join(names, ", ")));
-    }
-    return static_cast<Enum>(found - names.begin());
-}
-
-}  // namespace
-
-void RunFlags::require_known_to(const estimators::EstimatorEntry& method) const {
-    const auto goes_by = [](const estimators::EstimatorEntry& entry, std::string_view flag) {
-        return std::ranges::find(entry.patch_options, flag.substr(2)) != entry.patch_options.end();
-    };
-    std::vector<std::string> flags = given();
-    std::erase_if(flags, [](const std::string& flag) {
-        return flag != kPatchFlag && std::ranges::find(kHelpedFlags, flag) == kHelpedFlags.end();
-    });
-    for (const std::string& flag : flags) {
-        if (goes_by(method, flag)) continue;
-        std::vector<std::string_view> methods;
-        for (const estimators::EstimatorEntry& entry : estimators::estimator_list()) {
-            if (goes_by(entry, flag)) methods.push_back(entry.name);
-        }
-        throw InputError(fmt::format("{} has no effect with method {}. It belongs to: {}.", flag, method.name,
-                                     fmt::join(methods, ", ")));
-    }
-    if (!method.lights_patches && !flags.empty() && !first_shot_) {
-        throw InputError(fmt::format("{} has no effect with method {} unless --first-shot is given.",
-                                     flags.front(), method.name));
-    }
-}
-
-estimators::PatchMethodOptions RunFlags::patch_options() const {
-    estimators::PatchMethodOptions options;
-    options.first_shot.variant =
-        first_shot_ == "auto"
-            ? estimators::kUsualFirstShot
-            : read<estimators::FirstShotVariant>("--first-shot", first_shot_, estimators::kFirstShotNames);
-    estimators::ShootingOptions& shooting = options.first_shot.shooting;
-    shooting.window = read<patches::BufferShape>("--window", window_, kWindowNames).value_or(shooting.window);
-    shooting.backend = read<patches::BufferBackend>("--visibility", visibility_, patches::kBufferBackendNames)
-                           .value_or(shooting.backend);
-    options.directions =
-        read<estimators::BundleDirections>("--directions", directions_, estimators::kBundleDirectionsNames)
-            .value_or(options.directions);
-    options.resolution = resolution_;
-    if (resolution_) options.shot_resolution = *resolution_;
-    return options;
 }
 
 }  // namespace stilb::cli

@@ -9,12 +9,7 @@
 
 #include "cli/command_line.h"
 #include "cli/progress.h"
-#include "estimators/patch_light/patch_options.h"
 #include "run/options.h"
-
-namespace stilb::estimators {
-struct EstimatorEntry;
-}  // namespace stilb::estimators
 
 namespace stilb::cli {
 
@@ -49,13 +44,9 @@ class RunFlags {
 
   private:
     void add_all_but(const std::vector<std::string_view>& left_out, Command& command);
-    void require_known_to(const estimators::EstimatorEntry& method) const;
-    estimators::PatchMethodOptions patch_options() const;
 
     api::Options typed_;
     std::vector<Flag> flags_;
-    std::optional<std::string> first_shot_, window_, visibility_, directions_;
-    std::optional<int> resolution_;
 };
 
 /// Keeps `time_s` seconds of a time limit, but half of it at most, for statistics and files.

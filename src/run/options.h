@@ -50,6 +50,16 @@ void for_each_value(const api::Options& options, const Visit& visit) {
     });
 }
 
+/// The options of methods on patches that these stand for.
+estimators::PatchMethodOptions patch_options(const api::Options& options);
+/// Why an option of patches, by its flag without dashes, has no effect with the method of the options;
+/// nothing where it has one, and for all other options. `first_shot`: the name of that option for the
+/// caller's user.
+std::optional<std::string> lack_of_effect(const api::Options& options, std::string_view flag,
+                                          std::string_view first_shot);
+/// "first-shot" of "first_shot": as flags and lists of options are named.
+std::string flag_of(std::string_view key);
+
 /// Throws InputError where an option is outside of its limits.
 void require_valid(const RunOptions& options);
 

@@ -101,6 +101,41 @@ TEST(Library, BuiltScenesMeasureWhatReadScenesDo) {
     EXPECT_NE(built.json().find("\"desk\""), std::string::npos);
 }
 
+TEST(Library, OptionsOfPatchesAreThoseOfTheProgram) {
+    stilb::Options options = few_samples();
+    options.method = "ray-bundle";
+    options.patch_m = 1;
+    options.paths = 64;
+    const auto first_shot = [](const stilb::Result& result) {
+        const std::string json = result.json();
+        const std::string_view key = "\"variant\": \"";
+        const std::size_t begin = json.find(key) + key.size();
+        return json.substr(begin, json.find('"', begin) - begin);
+    };
+    EXPECT_EQ(first_shot(stilb::measure(room().build(), options)), "incoming");
+    options.first_shot = "classical";
+    options.resolution = 64;
+    options.window = "cube";
+    options.directions = "pair";
+    EXPECT_EQ(first_shot(stilb::measure(room().build(), options)), "classical");
+    options.method = "path";
+    options.patch_m.reset();
+    EXPECT_EQ(message_of([&] { stilb::measure(room().build(), options); }),
+              "directions has no effect with method path. It belongs to: ray-bundle.");
+    options.directions.reset();
+    options.first_shot.reset();
+    EXPECT_EQ(message_of([&] { stilb::measure(room().build(), options); }),
+              "window has no effect with method path unless first_shot is given.");
+    options.window = "cubes";
+    EXPECT_NE(message_of([&] { stilb::measure(room().build(), options); }).find("Did you mean \"cube\""),
+              std::string::npos);
+    const auto scene = stilb::Scene::parse(std::string(kRoom) +
+                                           "[run]\nmethod = \"ray-bundle\"\nfirst_shot = \"diffuse\"\n"
+                                           "patch = 1\npaths = 64\n");
+    EXPECT_EQ(scene.options().first_shot, "diffuse");
+    EXPECT_EQ(first_shot(stilb::measure(scene)), "diffuse");
+}
+
 TEST(Library, ReplicatesAreTheBasisOfTheErrors) {
     const stilb::Result result = stilb::measure(room().build(), few_samples());
     const stilb::SensorResult& desk = result["desk"];
@@ -219,7 +254,9 @@ TEST(Library, WrongOptionsAndNamesAreRefused) {
     EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("\"path\""), std::string::npos);
     options = few_samples();
     options.patch_m = 0.1;
-    EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("patch_m"), std::string::npos);
+    EXPECT_NE(
+        message_of([&] { stilb::measure(scene, options); }).find("patch has no effect with method auto"),
+        std::string::npos);
     options = few_samples();
     options.threads = -1;
     EXPECT_NE(message_of([&] { stilb::measure(scene, options); }).find("threads"), std::string::npos);

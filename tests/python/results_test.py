@@ -3,6 +3,7 @@
 import io
 import json
 import os
+import pickle
 import signal
 import sys
 import tempfile
@@ -318,6 +319,23 @@ class Runs(unittest.TestCase):
         self.assertIsInstance(solution, stilb.Solution)
         self.assertGreater(solution.render().luminance.max(), 0)
 
+    def test_options_of_patches_are_those_of_the_command_line(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "room.toml"
+            file.write_text(TOML)
+            scene = stilb.load(file)
+            result = scene.measure(method="ray-bundle", patch=1, paths=512, first_shot="classical", resolution=64, directions="pair")
+            typed = program("measure", file, "--json", "--method", "ray-bundle", "--patch", 1, "--paths", 512, "--first-shot",
+                            "classical", "--resolution", 64, "--directions", "pair")
+            expected, own = json.loads(typed.stdout), json.loads(result.to_json())
+            self.assertEqual(own["patches"]["first_shot"]["variant"], "classical")
+            self.assertEqual(own["sensors"], expected["sensors"])
+            scene.materials["wall"] = stilb.Phong(diffuse=0.4, specular=0.2, exponent=20)
+            finer, coarser = (scene.solve(paths=8, patch=1, degree=degree) for degree in (4, 0))
+            self.assertGreater(len(pickle.dumps(finer)), len(pickle.dumps(coarser)))
+            with self.assertRaisesRegex(stilb.InputError, "degree: 13 is not allowed. Allowed: from 0 to 12"):
+                scene.solve(degree=13)
+
     def test_other_threads_go_on(self):
         counts = []
 
@@ -351,6 +369,8 @@ class Runs(unittest.TestCase):
             with self.subTest(options), self.assertRaisesRegex(stilb.InputError, message):
                 built().measure(**options)
         self.assertEqual(built().measure(paths=4096.0).paths, built().measure(paths=4096).paths)
+        with self.assertRaisesRegex(stilb.InputError, "window has no effect with method path unless first_shot is given"):
+            built().measure(method="path", window="cube")
         with self.assertRaisesRegex(TypeError, "unknown argument eror; allowed: method, error, target, time, paths"):
             built().measure(eror=0.01)
 

@@ -181,6 +181,9 @@ class MeasureTest(CommandLineTest):
             self.assertAlmostEqual(means[method] / means["auto"], 1, delta=0.05)
 
     def test_patch_flags_of_other_methods(self):
+        for flag, value, message in (("--window", "cubes", '--window: "cubes" is not allowed. Did you mean "cube"?'),
+                                     ("--resolution", 99999, "--resolution: 99999 is out of range")):
+            self.assertIn(f"stilb: {message}", run("measure", self.scene, "--method", "ray-bundle", flag, str(value)).stderr)
         for method, flag, right in (("particles", "--window", "radiosity"), ("radiosity", "--directions", "ray-bundle"),
                                     ("path", "--directions", "ray-bundle"), ("path", "--patch", "--first-shot")):
             value = {"--window": "hemicube", "--directions": "pair", "--patch": "1"}[flag]

@@ -143,10 +143,11 @@ class ExampleTest(unittest.TestCase):
             file.write_text("[run]\nnothing = 1\n")
             refusal = subprocess.run([PROGRAM, "info", file], capture_output=True, text=True).stderr
         self.assertEqual(re.findall(r"\w+", refusal.split("Allowed: ")[1]), documented)
-        text = subprocess.run([PROGRAM, "measure", "--help"], capture_output=True, text=True).stdout
+        text = "".join(subprocess.run([PROGRAM, *words], capture_output=True, text=True).stdout
+                       for words in (["measure", "--help"], ["help", "patches"]))
         for key in documented:
             if key != "maintenance":
-                self.assertIn(f"  --{key} ", text)
+                self.assertIn(f"  --{key.replace('_', '-')} ", text)
 
     def test_the_readme_shows_the_simple_room(self):
         (scene,) = blocks(ROOT / "README.md", "toml")

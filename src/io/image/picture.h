@@ -49,9 +49,9 @@ struct Picture {
     std::vector<float> standard_error_cd_m2;      ///< optional; of the luminance
     std::vector<std::array<float, 3>> normals;    ///< optional; unit vectors in the scene's coordinates
     std::vector<float> depth_m;                   ///< optional; distance from the camera
-    std::vector<PictureLayer> layers;             ///< optional; they add up to the whole
     std::optional<Camera> camera;                 ///< its resolution is the picture's
     PictureOrigin origin;
+    std::vector<PictureLayer> layers{};  ///< optional; they add up to the whole
 
     std::size_t pixel_count() const {
         return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);

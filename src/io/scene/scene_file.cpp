@@ -142,6 +142,7 @@ RunOptions read_run(TomlTable section) {
         if (const auto item = section.find(option.key))
             run.*option.member = static_cast<Value>(read_option(*item, option.key, option.limits));
     });
+    run.patches = run::patch_options(run);
     return run;
 }
 
