@@ -50,7 +50,7 @@ TEST(RunStateOfLibrary, StepsEndAtErrorEstimatesAndGiveTheRunInOneGo) {
         elapsed_s = result.elapsed_s;
         endings.push_back(result.stopped);
     } while (result.stopped == "interrupted" && endings.size() < 100);
-    EXPECT_GT(endings.size(), 3U);
+    EXPECT_GE(endings.size(), 3U);
     EXPECT_EQ(endings.back(), "paths done");
     EXPECT_EQ(mean_of(result), mean_of(stilb::measure(lit_box(), options)));
 }

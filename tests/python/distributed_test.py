@@ -61,17 +61,17 @@ class Clusters(unittest.TestCase):
                 lost.append(busy[0])
                 os.kill(pids[busy[0]], signal.SIGKILL)
 
-        result = self.measured(scene, error=0.002, method="path", parts=6, progress=lose_one)
+        result = self.measured(scene, error=0.006, method="path", parts=6, progress=lose_one)
         self.assertEqual(len(lost), 1, "no part was running")
         self.assertNotIn(pids[lost[0]], self.client.run(os.getpid).values())
         self.assertEqual((result.converged, result.stopped), (True, "target reached"))
-        self.assertLessEqual(result.error, 0.002)
+        self.assertLessEqual(result.error, 0.006)
         self.same(result, scene.measure(paths=result.paths, method="path"))
 
     def test_the_function_of_progress_ends_the_run(self):
-        with self.assertWarnsRegex(stilb.ResultWarning, "The requested error of 0.001 % is not reached"):
-            result = self.measured(built(), error=1e-5, method="path", progress=lambda result: False)
-        self.assertGreater(result.error, 1e-5)
+        with self.assertWarnsRegex(stilb.ResultWarning, "The requested error of 0.01 % is not reached"):
+            result = self.measured(built(), error=1e-4, method="path", progress=lambda result: False)
+        self.assertGreater(result.error, 1e-4)
 
     def test_wrong_arguments_are_refused(self):
         with self.assertRaisesRegex(stilb.InputError, "error or paths"):

@@ -34,7 +34,7 @@ class Sweeps(unittest.TestCase):
             if name in ("converged", "warnings"):
                 self.assertEqual([str(value).lower() for value in own[name]], [str(value).lower() for value in printed[name]])
             elif printed[name].dtype.kind == "f" and name not in (KEY, "lights.bulb.flux"):
-                np.testing.assert_allclose(own[name], printed[name], rtol=1e-4, atol=1e-4, err_msg=name)
+                np.testing.assert_allclose(own[name], printed[name], rtol=1e-9, atol=1e-9, err_msg=name)
             else:
                 self.assertEqual(list(map(str, own[name])), list(map(str, printed[name])), name)
 
