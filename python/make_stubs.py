@@ -47,6 +47,7 @@ OPTIONS = '''from typing import TypedDict
 
 from . import _stilb
 
+DESCRIBED: dict[str, list[str]]
 DESCRIPTION: str
 
 class SightLimits(TypedDict, total=False):

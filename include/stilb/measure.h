@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <optional>
@@ -120,17 +121,32 @@ class RunState {
   public:
     /// Of a run that has not begun.
     RunState();
+    RunState(const RunState& other);
+    RunState& operator=(const RunState& other);
+    RunState(RunState&&) noexcept = default;
+    RunState& operator=(RunState&&) noexcept = default;
     /// As bytes() has made them, or the contents of a state file (docs/runs.md). Throws InputError where they
-    /// are damaged.
-    explicit RunState(std::string_view bytes);
+    /// are damaged, or of another command than `stilb measure`. `name`: of the file, for messages.
+    explicit RunState(std::string_view bytes, const std::string& name = "state of a run");
     std::string bytes() const;
+    /// Writes a state file in one step, from which `stilb resume` goes on. Throws InputError where it cannot
+    /// be written.
+    void save(const std::filesystem::path& path) const;
 
-    bool has_begun() const;
+    /// The words of `stilb measure` that begin this run, and the folder where they hold, relative to that of
+    /// the state file. Runs of the library have none, unless they are set.
+    const std::vector<std::string>& arguments() const;
+    const std::string& folder() const;
+    void set_command(std::vector<std::string> arguments, std::string folder);
+
+    bool has_begun() const;         ///< what comes before samples is decided
     std::uint64_t samples() const;  ///< as in Options
     std::vector<std::uint64_t> seeds() const;
-    /// The number of samples at the next error estimate of a run that has begun: a run that stops there goes
-    /// on with the bits of a run in one go.
-    std::uint64_t samples_at_next_check() const;
+    double elapsed_s() const;  ///< of all calls that have added samples
+    /// The number of samples at the next error estimate of a run that has begun, after those that it has, or
+    /// after so many: a run that stops there goes on with the bits of a run in one go.
+    std::uint64_t samples_at_next_check() const { return samples_at_next_check(samples()); }
+    std::uint64_t samples_at_next_check(std::uint64_t after) const;
 
     /// Adds the samples of another part of the run, or of a run with another seed. Throws InputError where it
     /// is of another scene, of other sensors or options, and where both have the same samples.
@@ -148,10 +164,21 @@ class RunState {
 /// scene file's section [run]. The result depends on the scene, the sensors, the method, the limits, the seed
 /// and the number of samples, and not on the number of threads. Throws InputError where an option is wrong or
 /// the scene has no such sensor, and Cancelled where the run ends before there is a result. `state`: may be
-/// null; it is begun, or continued to the limits of the options, which count all samples. Throws InputError
-/// where it is of another run.
+/// null; it is begun, or continued to the limits of the options, which count all samples; the time of the
+/// result is that of all calls. Throws InputError where it is of another run.
 Result measure(const Scene& scene, const std::optional<Options>& options = {}, const Control& control = {},
                const std::vector<std::string>& sensors = {}, RunState* state = nullptr);
+
+/// The same up to the next error estimate at most. Where the limits are not met there, the result so far is
+/// "interrupted", and the next call goes on with the bits of a run in one go.
+Result measure_to_next_check(const Scene& scene, const std::optional<Options>& options,
+                             const Control& control, const std::vector<std::string>& sensors,
+                             RunState& state);
+
+/// Decides what all parts of a run have in common, such as the technique, without samples that count: copies
+/// of this state spare the parts to do so. Throws as measure_part().
+void plan_parts(const Scene& scene, const Options& options, RunState& state, const Control& control = {},
+                const std::vector<std::string>& sensors = {});
 
 /// Makes part number `part` (from 0) of `parts` of the samples that `options.paths` asks of the whole run.
 /// All parts together, merged, are the bits of the whole. Returns the effort of the part.

@@ -28,6 +28,7 @@ NB_MODULE(_stilb, module) {
     stilb::api::bindings::add_scenes(module);
     stilb::api::bindings::add_results(module);
     stilb::api::bindings::add_runs(module);
+    stilb::api::bindings::add_run_states(module);
     stilb::api::bindings::add_files(module);
     nb::module_ exact = module.def_submodule("exact");
     stilb::api::bindings::add_exact_solutions(exact);

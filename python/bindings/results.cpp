@@ -4,18 +4,24 @@
 #include <nanobind/stl/array.h>
 #include <nanobind/stl/filesystem.h>
 #include <nanobind/stl/optional.h>
+#include <nanobind/stl/pair.h>
 #include <nanobind/stl/string.h>
 #include <nanobind/stl/vector.h>
 
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <limits>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "base/statistic.h"
 #include "bindings/parts.h"
 #include "bindings/states.h"
 #include "statistics/grid_summary.h"
+#include "statistics/interval.h"
 #include "stilb/measure.h"
 #include "stilb/render.h"
 
@@ -70,6 +76,42 @@ Numbers replicates(nb::pointer_and_handle<SensorResult> result) {
     const std::vector<double>& values = result.p->replicates;
     const std::size_t readings = result.p->readings.size();
     return Numbers(values.data(), {readings == 0 ? 0 : values.size() / readings, readings}, result.h);
+}
+
+/// What a part of the light gives, as readings of the sensor; their colours are not known.
+SensorResult readings_of(const LightShare& share, const SensorResult& sensor) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    SensorResult own{.name = sensor.name,
+                     .type = sensor.type,
+                     .quantity = sensor.quantity,
+                     .unit = sensor.unit,
+                     .count = sensor.count,
+                     .readings = {},
+                     .mean = share.mean,
+                     .minimum = share.minimum,
+                     .maximum = share.maximum,
+                     .uniformity = share.uniformity,
+                     .attained_error = 0,
+                     .diversity = share.diversity,
+                     .requirements = {},
+                     .replicates = share.replicates,
+                     .shares = {}};
+    std::vector<statistics::Estimate> estimates;
+    for (std::size_t j = 0; j < share.readings.size(); ++j) {
+        const Estimate& e = share.readings[j];
+        const Reading& whole = sensor.readings[j];
+        own.readings.push_back({e, {unknown, unknown, unknown}, whole.position, whole.direction});
+        estimates.push_back({e.value, e.standard_error, e.lower, e.upper});
+    }
+    own.attained_error = statistics::attained_error(estimates);
+    return own;
+}
+
+/// By name and in order.
+std::vector<std::pair<std::string, SensorResult>> shares(const SensorResult& sensor) {
+    std::vector<std::pair<std::string, SensorResult>> all;
+    for (const LightShare& share : sensor.shares) all.emplace_back(share.name, readings_of(share, sensor));
+    return all;
 }
 
 /// By how much each replicate differs from a statistic, to first order.
@@ -138,10 +180,17 @@ void add_readings(nb::module_& module) {
         .def_prop_ro("position", &triples<&Reading::position>)
         .def_prop_ro("direction", &triples<&Reading::direction>)
         .def_prop_ro("replicates", &replicates)
-        .def("residuals", &residuals, nb::arg("statistic"));
+        .def("residuals", &residuals, nb::arg("statistic"))
+        .def("shares", &shares);
+    nb::class_<LightSceneResult> light_scene(module, "LightSceneResult");
+    add_state(light_scene);
+    light_scene.def_ro("name", &LightSceneResult::name)
+        .def_ro("sensors", &LightSceneResult::sensors, nb::rv_policy::reference_internal)
+        .def_ro("power_w", &LightSceneResult::power_w);
     nb::class_<Result, Summary> result(module, "Result");
     add_state(result);
     result.def_ro("sensors", &Result::sensors, nb::rv_policy::reference_internal)
+        .def_ro("light_scenes", &Result::light_scenes, nb::rv_policy::reference_internal)
         .def_ro("confidence", &Result::confidence)
         .def(
             "summary", [](const Result& all) { return Summary(all); }, "Without the readings.")

@@ -132,6 +132,7 @@ void add_builder(nb::module_& module) {
             "run",
             [](SceneBuilder& builder, const nb::dict& keys) { builder.run(parameters_of(keys, "run")); },
             nb::arg("keys"))
+        .def("light_scene", adder(&SceneBuilder::light_scene, "scenes"), nb::arg("name"), nb::arg("keys"))
         .def(
             "defaults",
             [](SceneBuilder& builder, const nb::dict& keys) {

@@ -29,6 +29,34 @@ SummaryState state_of(const Summary& s) {
 
 Summary restored(const SummaryState& state) { return std::make_from_tuple<Summary>(state); }
 
+ShareState state_of(const LightShare& share) {
+    return {share.name,
+            bytes_of(share.readings),
+            {state_of(share.mean), state_of(share.minimum), state_of(share.maximum),
+             state_of(share.uniformity), state_of(share.diversity)},
+            bytes_of(share.replicates)};
+}
+
+LightShare restored(const ShareState& state) {
+    const auto& [name, readings, statistics, replicates] = state;
+    return {name,
+            list_of_bytes<Estimate>(readings),
+            restored(statistics[0]),
+            restored(statistics[1]),
+            restored(statistics[2]),
+            restored(statistics[3]),
+            restored(statistics[4]),
+            list_of_bytes<double>(replicates)};
+}
+
+LightSceneState state_of(const LightSceneResult& result) {
+    return {result.name, result.sensors, result.power_w};
+}
+
+LightSceneResult restored(const LightSceneState& state) {
+    return std::make_from_tuple<LightSceneResult>(state);
+}
+
 SensorState state_of(const SensorResult& result) {
     SensorState state{{result.name, result.type, result.quantity, result.unit},
                       result.count,
@@ -37,14 +65,17 @@ SensorState state_of(const SensorResult& result) {
                        state_of(result.uniformity), state_of(result.diversity)},
                       result.attained_error,
                       {},
-                      bytes_of(result.replicates)};
+                      bytes_of(result.replicates),
+                      {}};
+    for (const LightShare& share : result.shares)
+        std::get<std::vector<ShareState>>(state).push_back(state_of(share));
     for (const Requirement& requirement : result.requirements)
         std::get<std::vector<RequirementState>>(state).push_back(state_of(requirement));
     return state;
 }
 
 SensorResult restored(const SensorState& state) {
-    const auto& [texts, count, readings, statistics, error, requirements, replicates] = state;
+    const auto& [texts, count, readings, statistics, error, requirements, replicates, shares] = state;
     SensorResult result{.name = texts[0],
                         .type = texts[1],
                         .quantity = texts[2],
@@ -58,19 +89,22 @@ SensorResult restored(const SensorState& state) {
                         .attained_error = error,
                         .diversity = restored(statistics[4]),
                         .requirements = {},
-                        .replicates = list_of_bytes<double>(replicates)};
+                        .replicates = list_of_bytes<double>(replicates),
+                        .shares = {}};
+    for (const ShareState& share : shares) result.shares.push_back(restored(share));
     for (const RequirementState& requirement : requirements)
         result.requirements.push_back(restored(requirement));
     return result;
 }
 
 ResultState state_of(const Result& result) {
-    return {state_of(static_cast<const Summary&>(result)), result.sensors, result.confidence, result.json()};
+    return {state_of(static_cast<const Summary&>(result)), result.sensors, result.confidence, result.json(),
+            result.light_scenes};
 }
 
 Result restored(const ResultState& state) {
-    const auto& [summary, sensors, confidence, json] = state;
-    return restored_result(restored(summary), sensors, confidence, json);
+    const auto& [summary, sensors, confidence, json, light_scenes] = state;
+    return restored_result(restored(summary), sensors, confidence, json, light_scenes);
 }
 
 namespace {

@@ -51,14 +51,24 @@ using SummaryState =
 SummaryState state_of(const Summary& summary);
 Summary restored(const SummaryState& state);
 
-/// Texts, columns and rows, readings, statistics, error, requirements, replicates.
+/// Name, readings, statistics, replicates.
+using ShareState = std::tuple<std::string, nanobind::bytes, std::array<EstimateState, 5>, nanobind::bytes>;
+ShareState state_of(const LightShare& share);
+LightShare restored(const ShareState& state);
+
+/// Texts, columns and rows, readings, statistics, error, requirements, replicates, shares.
 using SensorState =
     std::tuple<std::array<std::string, 4>, std::array<int, 2>, nanobind::bytes, std::array<EstimateState, 5>,
-               double, std::vector<RequirementState>, nanobind::bytes>;
+               double, std::vector<RequirementState>, nanobind::bytes, std::vector<ShareState>>;
 SensorState state_of(const SensorResult& result);
 SensorResult restored(const SensorState& state);
 
-using ResultState = std::tuple<SummaryState, std::vector<SensorResult>, double, std::string>;
+using LightSceneState = std::tuple<std::string, std::vector<SensorResult>, std::optional<double>>;
+LightSceneState state_of(const LightSceneResult& result);
+LightSceneResult restored(const LightSceneState& state);
+
+using ResultState =
+    std::tuple<SummaryState, std::vector<SensorResult>, double, std::string, std::vector<LightSceneResult>>;
 ResultState state_of(const Result& result);
 Result restored(const ResultState& state);
 

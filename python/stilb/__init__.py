@@ -8,7 +8,7 @@
 docs/python.md is the guide; `help(stilb.Scene)` lists what a scene can do.
 """
 
-from . import exact, statistics
+from . import distributed, exact, statistics
 from ._stilb import Cancelled, InputError, Progress
 from ._stilb import version as __version__
 from .estimates import Estimate, ResultWarning
@@ -17,9 +17,12 @@ from .pairs import Pair, PairedReading, paired
 from .parts import *
 from .parts import __all__ as _parts
 from .results import Image, Reading, Result, Run
+from .runs import ResumableRun, merge, resume
 from .scene import Scene, Section, load
+from .shares import Readings
 from .solution import Solution, load_solution
+from .sweep import sweep
 
-__all__ = ["Cancelled", "Estimate", "Fit", "Image", "InputError", "Pair", "PairedReading", "Progress", "Reading", "Result",
-           "ResultWarning", "Run", "Scene", "Section", "Solution", "__version__", "exact", "fit", "load", "load_solution",
-           "paired", "read_points", "statistics", *_parts]
+__all__ = ["Cancelled", "Estimate", "Fit", "Image", "InputError", "Pair", "PairedReading", "Progress", "Reading", "Readings",
+           "Result", "ResultWarning", "ResumableRun", "Run", "Scene", "Section", "Solution", "__version__", "distributed", "exact",
+           "fit", "load", "load_solution", "merge", "paired", "read_points", "resume", "statistics", "sweep", *_parts]

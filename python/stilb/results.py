@@ -16,12 +16,16 @@ import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
 from . import _stilb, program
+from ._stilb import InputError
 from .estimates import Errors, Estimate, Numbers, ResultWarning, RunKey
+from .shares import ByName, Readings
 
 if TYPE_CHECKING:
     import matplotlib.axes
     import pandas
     import xarray
+
+    from .sums import Sums
 
 __all__ = ["Image", "Reading", "Result", "Run"]
 
@@ -114,6 +118,12 @@ class Run:
         return f"The run ended before its goal: {self.stopped}."
 
 
+def bands(factor: float | Sequence[float]) -> tuple[float, float, float]:
+    """A factor, or one each for red, green and blue."""
+    red, green, blue = factor if isinstance(factor, Sequence) else (factor, factor, factor)
+    return (float(red), float(green), float(blue))
+
+
 def warn_of(run: Run, level: int = 4) -> None:
     """Python warnings of what is odd about a result. `level`: of the user's call in the stack."""
     for text in run._notes():
@@ -130,8 +140,10 @@ class Reading:
     """
 
     def __init__(self, sensor: _stilb.SensorResult, run: _stilb.Summary, key: RunKey,
-                 shape: tuple[int, ...] | None = None) -> None:
+                 shape: tuple[int, ...] | None = None, of: str = "") -> None:
+        """`of`: the part of the light or the light scene, which tells errors apart."""
         self._sensor = sensor
+        self._of = of
         self._run = run
         self._key = key
         columns, rows = sensor.count
@@ -300,10 +312,10 @@ class Reading:
         return f"{' x '.join(map(str, self._shape))} readings, mean {self.mean}"
 
     def _statistic(self, name: str, unit: str) -> Estimate:
-        sensor, key = self._sensor, self._key
+        sensor, key, full_name = self._sensor, self._key, f"{self._of}{self.name}.{name}"
         estimate: _stilb.Estimate = getattr(sensor, name)
         return Estimate(estimate.value, estimate.standard_error, (estimate.lower, estimate.upper), unit,
-                        lambda: Errors.of_statistic(estimate, key, f"{sensor.name}.{name}", np.array(sensor.residuals(name))))
+                        lambda: Errors.of_statistic(estimate, key, full_name, np.array(sensor.residuals(name))))
 
     def _is_grid(self) -> bool:
         return self._sensor.count[1] > 0
@@ -327,15 +339,16 @@ class Reading:
 class Result(Run, Mapping[str, Reading]):
     """The readings of all sensors: `result["desk"]`, in the order of the scene."""
 
-    def __init__(self, result: _stilb.Result, token: str | None = None) -> None:
-        """`token`: of the same result, where it is made again."""
+    def __init__(self, result: _stilb.Result, token: str | None = None, sums: Sums | None = None) -> None:
+        """`token`: of the same result, where it is made again. `sums`: what it was made of, where that is kept."""
         super().__init__(result.summary())
         self._result = result
+        self._sums = sums
         self._key = RunKey(token or uuid.uuid4().hex, result.seed, result.confidence)
         self._readings = {sensor.name: Reading(sensor, self._run, self._key) for sensor in result.sensors}
 
     def __reduce__(self) -> tuple[Callable[..., Result], tuple[Any, ...]]:
-        return Result, (self._result, self._key.token)
+        return Result, (self._result, self._key.token, self._sums)
 
     def __getitem__(self, sensor: str) -> Reading:
         if sensor not in self._readings:
@@ -347,6 +360,37 @@ class Result(Run, Mapping[str, Reading]):
 
     def __len__(self) -> int:
         return len(self._readings)
+
+    @cached_property
+    def shares(self) -> dict[str, Readings]:
+        """What each light or group of lights, or each number of reflections gives, after scene.measure(by="light") or
+        by="bounce": `result.shares["panel"]["desk"].mean`. The values add up to the readings. Colours are not known."""
+        parts: dict[str, dict[str, Reading]] = {}
+        for sensor in self._result.sensors:
+            for name, share in sensor.shares():
+                parts.setdefault(name, {})[sensor.name] = Reading(share, self._run, self._key, of=f"share {name}: ")
+        return ByName({name: Readings(name, readings) for name, readings in parts.items()},
+                      'this result has no shares: scene.measure(by="light") or by="bounce" has them')
+
+    @cached_property
+    def scenes(self) -> dict[str, Readings]:
+        """The readings in the scene's light scenes (`scene.light_scenes`): `result.scenes["evening"]["desk"]`."""
+        return ByName({lit.name: Readings(lit.name, {sensor.name: Reading(sensor, self._run, self._key, of=f"scene {lit.name}: ")
+                                                     for sensor in lit.sensors}, lit.power_w)
+                       for lit in self._result.light_scenes},
+                      'the scene had no light scenes: scene.light_scenes["evening"] = {"panel": 0.2} adds one')
+
+    def dimmed(self, **lights: float | Sequence[float]) -> Result:
+        """The result with the lamps so, from the same samples: `result.dimmed(panel=0.4, corridor=0)`. A factor for a light or
+        a group of lights, or three of them for red, green and blue.
+
+        The run must have kept the lights apart: scene.measure(by="light"), or a light scene that tells them apart.
+        """
+        if self._sums is None:
+            raise InputError('this result has not kept the lights apart: scene.measure(by="light") does.')
+        result = self._sums.result({name: bands(factor) for name, factor in lights.items()})
+        warn_of(result, 3)
+        return result
 
     def covariance(self, first: str, second: str | None = None) -> Numbers:
         """The covariances of the values of two sensors, or of one: (n, m) for n and m readings in the order of

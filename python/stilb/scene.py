@@ -21,7 +21,9 @@ from .options import DESCRIPTION, Limits, SightLimits, options
 from .parts import Mesh, Part, part_of
 from .progress import Progress, called
 from .results import Image, Reading, Result, Run, warn_of
+from .runs import ResumableRun
 from .solution import Solution
+from .sums import Sums
 from .toml import document_text, value_text
 
 __all__ = ["Scene", "Section", "load"]
@@ -106,6 +108,7 @@ class Scene:
         self.name = name
         self.run: dict[str, Any] = {}
         self.defaults: dict[str, Any] = {}
+        self.light_scenes: dict[str, dict[str, Any]] = {}  # states of the lamps: {"evening": {"panel": 0.2, "others": 0}}
         self._path: Path | None = None
         self._directory = Path(".")
         self._sections = {section: Section(section) for section in SECTIONS}
@@ -154,6 +157,7 @@ class Scene:
         scene._directory = Path(directory)
         scene.run = copy.deepcopy(dict(document.get("run", {})))
         scene.defaults = copy.deepcopy(dict(document.get("defaults", {})))
+        scene.light_scenes = copy.deepcopy(dict(document.get("scenes", {})))
         scene._sections = {section: Section(section, document.get(section)) for section in SECTIONS}
         return scene
 
@@ -184,6 +188,8 @@ class Scene:
             self.name = value
         elif first in ("run", "defaults") and names:
             setattr(self, first, _with(getattr(self, first), names, value))
+        elif first == "scenes" and names:
+            self.light_scenes = _with(self.light_scenes, names, value)
         elif first in SECTIONS and len(names) == 1:
             self._sections[first][names[0]] = value
         elif first in SECTIONS and names:
@@ -205,6 +211,7 @@ class Scene:
         made = Scene(self.name)
         made.__dict__.update(self.__dict__)
         made.run, made.defaults = copy.deepcopy(self.run), copy.deepcopy(self.defaults)
+        made.light_scenes = copy.deepcopy(self.light_scenes)
         made._sections = copy.deepcopy(self._sections)
         if self._built is not None and self._state() == self._built_state:
             made._built_state = made._state()
@@ -251,13 +258,30 @@ class Scene:
 
     def measure(self, *, sensors: Iterable[str] | None = None, progress: Progress = None, **limits: Unpack[Limits]) -> Result:
         """Measures all sensors but cameras, or those of these names. `limits`: see `help(stilb.Scene)`."""
-        scene = self._scene()
+        scene, names, state = self._scene(), self._names(sensors), _stilb.RunState()
+        chosen = options(scene, limits)
+        return _warned(called(progress, lambda sink: _stilb.measure_state(scene, chosen, names, state, False, sink),
+                              lambda result: Sums(self, names, limits, state).wrapped(result)))
+
+    def start(self, *, sensors: Iterable[str] | None = None, progress: Progress = None,
+              **limits: Unpack[Limits]) -> ResumableRun:
+        """A run of `measure` that can be followed, saved and continued. Nothing is computed yet:
+
+            run = scene.start(error=0.001, seed=7)
+            for partial in run:                     # a Result after each error estimate; `break` keeps what there is
+                print(partial["desk"].mean)
+                run.save("hall.run")
+        """
+        options(self._scene(), limits)  # for its messages
+        return ResumableRun(Sums(copy.copy(self), self._names(sensors), limits), progress)
+
+    def _names(self, sensors: Iterable[str] | None) -> list[str]:
+        """Of the sensors that are chosen; none for all."""
         names = [] if sensors is None else [sensors] if isinstance(sensors, str) else list(sensors)
         if sensors is not None and not names:
-            raise InputError(f"sensors: the list is empty. Allowed: names of sensors ({', '.join(scene.sensors())}); None for "
-                             "all.")
-        chosen = options(scene, limits)
-        return _warned(called(progress, lambda sink: _stilb.measure(scene, chosen, names, sink), Result))
+            raise InputError(f"sensors: the list is empty. Allowed: names of sensors ({', '.join(self._scene().sensors())}); "
+                             "None for all.")
+        return names
 
     def illuminance(self, points: ArrayLike, normals: ArrayLike, *, progress: Progress = None, **limits: Unpack[Limits]) -> Reading:
         """The illuminance [lx] on surface elements anywhere in the scene.
@@ -321,12 +345,15 @@ class Scene:
         if self._base:
             raise InputError(f"{self._path}: the parts of this file cannot be written as a scene file here. Make it one by "
                              "`stilb import`, and load that.")
+        return self._document()
+
+    def _document(self) -> dict[str, Any]:
         document: dict[str, Any] = {"scene": {"name": self.name}} if self.name else {}
         document |= {section: parts for section, parts in (("defaults", self.defaults), ("run", self.run)) if parts}
         for section in SECTIONS:
             if self._sections[section]:
                 document[section] = {name: part.to_dict() for name, part in self._sections[section].items()}
-        return document
+        return document | ({"scenes": self.light_scenes} if self.light_scenes else {})
 
     def save(self, path: str | os.PathLike[str]) -> None:
         """Writes a scene file (TOML), which is the scene's own from now on."""
@@ -347,7 +374,7 @@ class Scene:
 
     def _state(self) -> Any:
         parts = tuple(section._state() for section in self._sections.values())
-        return (self.name, repr(self.run), repr(self.defaults), parts)
+        return (self.name, repr(self.run), repr(self.defaults), repr(self.light_scenes), parts)
 
     def _scene(self) -> _stilb.Scene:
         """The scene in C++: that of the file, or a new one where something was changed."""
@@ -362,6 +389,8 @@ class Scene:
         builder.directory(self._directory)
         builder.run(self.run)
         builder.defaults(self.defaults)
+        for name, factors in self.light_scenes.items():
+            builder.light_scene(name, factors)
         add = {"materials": builder.material, "objects": builder.object, "lights": builder.light,
                "sensors": builder.sensor}
         for section in SECTIONS:
@@ -424,7 +453,7 @@ def _with(table: Mapping[str, Any], names: list[str], value: Any) -> dict[str, A
 
 
 def _require_section(section: str) -> None:
-    known = ["scene", "defaults", "run", *SECTIONS]
+    known = ["scene", "defaults", "run", *SECTIONS, "scenes"]
     if section not in known:
         raise InputError(f'unknown section "{section}".{_stilb.did_you_mean(section, known)} Allowed: {", ".join(known)}.')
 

@@ -16,11 +16,11 @@ if TYPE_CHECKING:
     from .results import Reading, Result
 
 
-def _needed(package: str) -> Any:
+def needed(package: str, installed_by: str | None = None) -> Any:
     try:
         return importlib.import_module(package)
     except ImportError:
-        raise ImportError(f"this needs the package {package}: pip install {package}", name=package) from None
+        raise ImportError(f"this needs the package {package}: {installed_by or f'pip install {package}'}", name=package) from None
 
 
 def _columns(reading: Reading) -> dict[str, Any]:
@@ -32,7 +32,7 @@ def _columns(reading: Reading) -> dict[str, Any]:
 
 
 def table(reading: Reading) -> pandas.DataFrame:
-    pandas = _needed("pandas")
+    pandas = needed("pandas")
     rows = pandas.DataFrame(_columns(reading))
     if reading._is_grid():
         rows.index = pandas.MultiIndex.from_product([range(length) for length in reading.shape], names=["v", "u"])
@@ -41,14 +41,14 @@ def table(reading: Reading) -> pandas.DataFrame:
 
 
 def table_of_all(result: Result) -> pandas.DataFrame:
-    pandas = _needed("pandas")
+    pandas = needed("pandas")
     parts = {name: pandas.DataFrame({"quantity": reading.quantity, "unit": reading.unit, **_columns(reading)})
              for name, reading in result.items()}
     return pandas.concat(parts, names=["sensor", "reading"])
 
 
 def dataset(reading: Reading) -> xarray.Dataset:
-    module = _needed("xarray")
+    module = needed("xarray")
     axes: tuple[str, ...] = ("v", "u")
     if not reading._is_grid():
         axes = ("reading",) if len(reading.shape) == 1 else tuple(f"axis_{i}" for i in range(len(reading.shape)))

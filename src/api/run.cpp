@@ -150,9 +150,9 @@ std::string Result::json() const {
 }
 
 Result restored_result(const Summary& summary, std::vector<SensorResult> sensors, double confidence,
-                       std::string json) {
+                       std::string json, std::vector<LightSceneResult> light_scenes) {
     return {summary, std::move(sensors), confidence,
-            std::make_shared<const Result::Data>(Result::Data{std::move(json)})};
+            std::make_shared<const Result::Data>(Result::Data{std::move(json)}), std::move(light_scenes)};
 }
 
 namespace {
@@ -183,14 +183,20 @@ Result result_from(const Scene& scene, RunResult run) {
     return result;
 }
 
+Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors, const RunOptions& options,
+                       const Control& control, RunState* state) {
+    ControlSink sink(control);
+    if (state) state->data().require(scene, sensors, options);
+    RunResult run = run::measure(scene.data().prepared, sensors, options, &sink, control.interrupt,
+                                 state ? &state->data().sums : nullptr);
+    if (state) state->data().end(run);
+    return result_from(scene, std::move(run));
+}
+
 Result measure_sensors(const Scene& scene, const std::vector<Sensor>& sensors,
                        const std::optional<Options>& options, const Control& control,
                        RunState* state = nullptr) {
-    ControlSink sink(control);
-    const RunOptions run = run_options(scene, options);
-    if (state) state->data().require(scene, sensors, run);
-    return result_from(scene, run::measure(scene.data().prepared, sensors, run, &sink, control.interrupt,
-                                           state ? &state->data().sums : nullptr));
+    return measure_sensors(scene, sensors, run_options(scene, options), control, state);
 }
 
 Vec3 position_of(const Ray& ray) { return {ray.position[0], ray.position[1], ray.position[2]}; }
@@ -219,28 +225,62 @@ Result measure(const Scene& scene, const std::optional<Options>& options, const 
                            control, state);
 }
 
-Summary measure_part(const Scene& scene, const Options& options, std::size_t part, std::size_t parts,
-                     RunState& state, const Control& control, const std::vector<std::string>& sensors) {
+Result measure_to_next_check(const Scene& scene, const std::optional<Options>& options,
+                             const Control& control, const std::vector<std::string>& sensors,
+                             RunState& state) {
+    RunOptions run = run_options(scene, options);
+    run.stops_at_check = true;
+    return measure_sensors(scene, sensors::choose_meters(scene.data().file.sensors, sensors), run, control,
+                           &state);
+}
+
+namespace {
+
+Summary measure_own_part(const Scene& scene, const Options& options, run::RunPart part, RunState& state,
+                         const Control& control, const std::vector<std::string>& sensors) {
     const std::vector<Sensor> meters = sensors::choose_meters(scene.data().file.sensors, sensors);
     const RunOptions run = run_options(scene, options);
     state.data().require(scene, meters, run);
     ControlSink sink(control);
-    return summary(run::measure_part(scene.data().prepared, meters, run, {part, parts}, state.data().sums,
-                                     &sink, control.interrupt),
-                   scene.data().file.warnings);
+    RunSummary made = run::measure_part(scene.data().prepared, meters, run, part, state.data().sums, &sink,
+                                        control.interrupt);
+    state.data().end(made);
+    return summary(made, scene.data().file.warnings);
+}
+
+}  // namespace
+
+Summary measure_part(const Scene& scene, const Options& options, std::size_t part, std::size_t parts,
+                     RunState& state, const Control& control, const std::vector<std::string>& sensors) {
+    return measure_own_part(scene, options, {part, parts}, state, control, sensors);
+}
+
+void plan_parts(const Scene& scene, const Options& options, RunState& state, const Control& control,
+                const std::vector<std::string>& sensors) {
+    // A part without strands: no run has so many.
+    constexpr std::size_t many = std::numeric_limits<std::size_t>::max();
+    measure_own_part(scene, options, {many - 1, many}, state, control, sensors);
+    state.data().origin.elapsed_s = 0;  // which all parts would add
+    state.data().origin.ending.clear();
 }
 
 Result result_of(const Scene& scene, const RunState& state, const std::optional<Options>& options,
                  const std::vector<std::string>& sensors, const std::map<std::string, Triple>& factors) {
     const std::vector<Sensor> meters = sensors::choose_meters(scene.data().file.sensors, sensors);
     const RunOptions run = run_options(scene, options);
-    if (!state.has_begun()) throw InputError("the run has no samples yet");
+    if (state.samples() == 0) throw InputError("the run has no samples yet");
     RunState::Data own = state.data();
     own.require(scene, meters, run);
     LightScene dimmed;
     for (const auto& [name, factor] : factors) dimmed.factors.push_back(light_factor(name, factor));
-    return result_from(scene, run::result_of(scene.data().prepared, meters, run, own.sums,
-                                             factors.empty() ? nullptr : &dimmed));
+    RunResult result =
+        run::result_of(scene.data().prepared, meters, run, own.sums, factors.empty() ? nullptr : &dimmed);
+    result.elapsed_s = own.origin.elapsed_s;
+    // Merged parts are all that was asked for, and may have met the error.
+    const StopReason ended = io::stop_reason_of(own.origin).value_or(StopReason::interrupted);
+    if (ended != StopReason::paths_done) result.stop_reason = ended;
+    if (ended == StopReason::interrupted) result.converged = false;
+    return result_from(scene, std::move(result));
 }
 
 Result illuminance(const Scene& scene, std::span<const Ray> elements, const std::optional<Options>& options,

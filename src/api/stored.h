@@ -32,7 +32,7 @@ struct Picture::Data {
 };
 
 Result restored_result(const Summary& summary, std::vector<SensorResult> sensors, double confidence,
-                       std::string json);
+                       std::string json, std::vector<LightSceneResult> light_scenes);
 
 /// A scene with its light.
 struct Solution::Data {

@@ -20,6 +20,8 @@ struct RunOptions : api::Options {
     /// The part of time_s that the caller needs after the run, for example to write files.
     double reserved_s = 0;
     Checks checks = Checks::all;
+    /// Readings: the run also ends at its next error estimate, as one that is interrupted.
+    bool stops_at_check = false;
     /// The number of independent repetitions, from which standard errors of readings are estimated (theory
     /// 6). Absent: 8 where readings lie side by side in large grids, else 32.
     std::optional<int> replicates;

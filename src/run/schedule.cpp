@@ -49,6 +49,7 @@ Schedule::Ending Schedule::run(Work& work) {
         const std::uint64_t check = std::min(last, work.next_check());
         if (const auto reason = advance_to(check, last, work, error)) return {*reason, work.attained_error()};
         if (const auto reason = reason_at_check(work, last, error)) return {*reason, error};
+        if (options_.stops_at_check) return {StopReason::interrupted, error};
     }
 }
 
