@@ -250,6 +250,9 @@ std::span<const Threshold> thresholds() {
          "offsets of rays in front of a point: it lies on a surface, or not",
          "tests/rays/lamps_in_front_test.cpp: 0.9 and 1.1"},
         // Numbers of reflections and directions, reflectances.
+        {"kBounces", "src/run/readings/division.h", "8",
+         "reflections: each is a share of its own, or all further ones together",
+         "tests/run/division_test.cpp: limits of 6, 7 and 8 reflections"},
         {"kUnlimited", "src/transport/receiver.h", "std::numeric_limits<int>::max()",
          "reflections: a guess only without a limit", "scenes with 0, 1, 2, 3 and all reflections"},
         {"kMostFollowed", "src/transport/line_of_sight.cpp", "32",
