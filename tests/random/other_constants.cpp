@@ -182,6 +182,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/run/level_of_detail.cpp", "kNoLimit_m kFootprint_rad"},
         {"src/run/readings/measure.cpp", "kConfidence much"},
         {"src/run/pictures/passes.h", "kBiasesOfMostPixels"},
+        {"src/run/options.cpp", "names"},
         {"src/run/plan.cpp", "kFewReplicates"},
         {"src/run/pictures/picture_comparison.cpp", "kPixels kReplicates kPathsOfAReplicate"},
         {"src/run/pictures/picture_paces.cpp", "kPixelReserve kEdge packets"},
