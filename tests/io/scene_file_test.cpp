@@ -180,7 +180,7 @@ TEST(SceneFile, RefusesUnknownSections) {
     EXPECT_REFUSAL("\n[ligths.a]\ntype = \"point\"",
                    "s.toml:2: unknown key \"ligths\". Did you mean \"lights\"? Allowed: scene, defaults, "
                    "materials, objects, "
-                   "lights, sensors, run.");
+                   "lights, sensors, scenes, run.");
     EXPECT_REFUSAL("[scene]\ntitle = \"x\"", "s.toml:2: scene: unknown key \"title\". Allowed: name.");
     EXPECT_REFUSAL("run = 3", "s.toml:1: run: found the number 3 where a table is needed.");
     EXPECT_REFUSAL("[materials]\nwall = 0.5",
@@ -205,10 +205,12 @@ TEST(SceneFile, RefusesWrongRunOptions) {
     EXPECT_REFUSAL("[run]\nmethod = \"pth\"",
                    "s.toml:2: run.method: unknown method \"pth\". Did you mean \"path\"? Allowed: auto, "
                    "local, double-local, path, ray-bundle, radiosity, particles, light-paths, guided.");
-    EXPECT_REFUSAL("[run]\nmetod = \"auto\"",
-                   "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, "
-                   "target, time, paths, "
-                   "bounces, patch, seed, threads, maintenance.");
+    EXPECT_REFUSAL(
+        "[run]\nmetod = \"auto\"",
+        "s.toml:2: run: unknown key \"metod\". Did you mean \"method\"? Allowed: method, error, "
+        "target, time, paths, "
+        "bounces, patch, by, first_shot, window, resolution, visibility, directions, seed, threads, "
+        "maintenance.");
     const std::string share = " is not allowed. Allowed: a share between 0 and 1, such as 0.01 or \"1%\".";
     EXPECT_REFUSAL("[run]\nerror = 0", "s.toml:2: run.error: 0" + share);
     EXPECT_REFUSAL("[run]\nerror = -0.1", "s.toml:2: run.error: -0.1" + share);
