@@ -40,8 +40,8 @@ def main():
     scene = stilb.load(sys.argv[1] if len(sys.argv) > 1 else ROOT / "scenes/simple/room.toml")
     paths = int(float(sys.argv[2])) if len(sys.argv) > 2 else 1 << 19
     repetitions = int(sys.argv[3]) if len(sys.argv) > 3 else 3
-    with (distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=None) as one,
-          distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as two,
+    with (distributed.LocalCluster(n_workers=1, threads_per_worker=1, dashboard_address=":0") as one,
+          distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=":0") as two,
           distributed.Client(one) as first, distributed.Client(two) as second):
         ways = {"one process": alone, "1 worker": on_workers(first), "2 workers": on_workers(second)}
         error = None

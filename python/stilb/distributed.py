@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import pickle
 from collections.abc import Callable, Iterable
 from typing import TYPE_CHECKING, Any, Unpack, cast
@@ -101,16 +102,20 @@ class _Run:
         plan = _stilb.RunState.read(self._plan.result(), "plan of a run")
         paths = self._next(plan, 0)
         self._submit(paths)
+        last = math.inf  # the error of one sample, by that of the last round
         while True:
             futures = self._made
             following = self._next(plan, paths)
-            if following > paths:
+            is_ahead = following > paths and self._error is not None and last / math.sqrt(paths) > self._error
+            if is_ahead:
                 self._submit(following)  # while this round ends, idle workers begin the next one
             result = self._merged(plan, futures)
             is_over = following == paths or (self._error is not None and result.error <= self._error)
             if (progress and progress(result) is False) or is_over:
                 return result
-            paths = following
+            if not is_ahead:
+                self._submit(following)
+            last, paths = result.error * math.sqrt(paths), following
 
     def _next(self, plan: _stilb.RunState, paths: int) -> int:
         """The samples of the next round: at an error estimate of the run in one process, twice as many."""

@@ -6,6 +6,7 @@ import signal
 import sys
 import unittest
 import unittest.mock
+import warnings
 
 import distributed
 import numpy as np
@@ -31,6 +32,12 @@ class Clusters(unittest.TestCase):
             np.testing.assert_array_equal(a[name].value, b[name].value)
             np.testing.assert_array_equal(a[name].replicates, b[name].replicates)
             np.testing.assert_array_equal(a[name].standard_error, b[name].standard_error)
+
+    def setUp(self):
+        caught = warnings.catch_warnings()
+        caught.__enter__()
+        self.addCleanup(caught.__exit__, None, None, None)
+        warnings.simplefilter("ignore", stilb.ResultWarning)
 
     def measured(self, scene, **limits):
         return stilb.distributed.measure(scene, self.client, **limits)

@@ -164,7 +164,7 @@ class Continued(InFolder):
             run = self.scene().start(error=error, method=method)
             results = list(run)
             errors = [result.error for result in results]
-            self.assertGreater(len(results), 2)
+            self.assertGreater(len(results), 1)
             self.assertGreater(min(errors[:-1]), error)
             self.assertLessEqual(errors[-1], error)
             self.assertEqual({(result.stopped, result.converged) for result in results[:-1]}, {("interrupted", False)})
@@ -208,9 +208,9 @@ class Continued(InFolder):
         self.same(run.finish(), expected)
 
     def test_progress_and_time_end_a_run(self):
-        run = self.scene().start(paths=1e8, method="path", progress=lambda report: report.elapsed_s < 0.2)
-        results = list(run)
-        self.assertFalse(results[-1].converged)
+        run = self.scene().start(paths=1e8, method="path", progress=lambda report: report.stage != "")
+        *_, last = run
+        self.assertEqual((last.stopped, last.converged), ("interrupted", False))
         run = self.scene().start(time=0.5, method="path", sensors="eye")
         list(run)
         self.assertIn(run.result.stopped, ("time over", "interrupted"))
