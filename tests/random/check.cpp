@@ -143,6 +143,9 @@ std::vector<Setting> settings_of(const RandomScene& random, const Options& optio
         const auto form = static_cast<Form>(1 + draw.below(static_cast<std::size_t>(Form::count) - 1));
         settings.push_back({draw.one_of({"auto", "path", "light-paths", "guided"}), form});
     }
+    Setting apart{draw.one_of({"auto", "path", "light-paths", "guided"})};
+    apart.apart = draw.one_of({Apart::lights, Apart::bounces, Apart::light_scene});
+    settings.push_back(apart);
     if (options.is_long) {
         for (const char* const method : {"ray-bundle", "radiosity", "particles"})
             settings.push_back({method});

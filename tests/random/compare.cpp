@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 
@@ -89,6 +90,38 @@ void add(Measured& measured, const std::string& name, statistics::Estimate estim
     measured.readings.push_back({name, estimate, replicates});
 }
 
+/// A light scene with a factor of its own for each light, and the one that takes it back.
+std::array<LightScene, 2> dimming(const Scene& scene, Draw& draw) {
+    std::array<LightScene, 2> scenes;
+    for (const Light& light : scene.lights) {
+        const double factor = std::exp(draw.between(-2, 2));
+        scenes[0].factors.push_back({light.name, Rgb::grey(factor)});
+        scenes[1].factors.push_back({light.name, Rgb::grey(1 / factor)});
+    }
+    return scenes;
+}
+
+/// The scene and the options by which light is kept apart.
+void keep_apart(Apart apart, Draw& draw, Scene& scene, RunOptions& options) {
+    if (apart == Apart::lights) options.by = "light";
+    if (apart == Apart::bounces) options.by = "bounce";
+    if (apart != Apart::light_scene) return;
+    auto [dimmed, back] = dimming(scene, draw);
+    scene = scene::lit(std::move(scene), dimmed);
+    options.light_scenes = {std::move(back)};
+}
+
+/// The whole reading by its shares, with the interval of the whole.
+statistics::Estimate put_together(const SensorResult& sensor, std::size_t reading) {
+    statistics::Estimate estimate = sensor.readings[reading].estimate;
+    if (sensor.shares.empty()) return estimate;
+    double sum = 0;
+    for (const run::Share& share : sensor.shares) sum += share.readings[reading].value;
+    const double shift = sum - estimate.value;
+    for (double* const number : {&estimate.value, &estimate.lower, &estimate.upper}) *number += shift;
+    return estimate;
+}
+
 /// The mean luminance of pictures with several seeds.
 void add_picture(Measured& measured, const Scene& scene, const Sensor& camera, RunOptions options,
                  double factor) {
@@ -109,7 +142,8 @@ void add_picture(Measured& measured, const Scene& scene, const Sensor& camera, R
 std::string Setting::words() const {
     std::string text = method;
     if (form != Form::as_it_is) text += fmt::format(", {}", random::words(form));
-    return text;
+    constexpr std::array words{"", ", by light", ", by bounce", ", in a light scene"};
+    return text + words[static_cast<std::size_t>(apart)];
 }
 
 Measured measure(const Draft& draft, const Setting& setting, const std::filesystem::path& folder) {
@@ -122,7 +156,7 @@ Measured measure(const Draft& draft, const Setting& setting, const std::filesyst
     }
     measured.is_on_patches = estimators::find_estimator(setting.method).lights_patches;
     try {
-        const io::SceneFile file = io::read_scene(other->draft.document(), "random scene", folder);
+        io::SceneFile file = io::read_scene(other->draft.document(), "random scene", folder);
         std::size_t readings = 0;
         for (const Sensor& sensor : file.sensors) readings += sensor.size();
         RunOptions options = file.run;
@@ -131,10 +165,12 @@ Measured measure(const Draft& draft, const Setting& setting, const std::filesyst
         options.paths = setting.work * samples_of(setting.method, readings);
         options.replicates = kReplicates;
         options.threads = 1;
+        keep_apart(setting.apart, draw, file.scene, options);
         if (readings > 0) {
             const RunResult result = run::measure(file.scene, file.sensors, options);
             measured.warnings = texts_of(result.warnings);
-            for (const SensorResult& sensor : result.sensors) {
+            const bool is_lit = setting.apart == Apart::light_scene;
+            for (const SensorResult& sensor : is_lit ? result.light_scenes.front().sensors : result.sensors) {
                 // The order of an area's points depends on the direction of its edges.
                 if (std::holds_alternative<Area>(sensor.sensor.kind)) {
                     add(measured, sensor.sensor.name + " mean", sensor.summary.mean, kReplicates,
@@ -143,12 +179,13 @@ Measured measure(const Draft& draft, const Setting& setting, const std::filesyst
                 }
                 for (std::size_t i = 0; i < sensor.readings.size(); ++i)
                     add(measured, fmt::format("{} reading {}", sensor.sensor.name, i),
-                        sensor.readings[i].estimate, kReplicates, other->factor);
+                        put_together(sensor, i), kReplicates, other->factor);
             }
         }
         options.replicates.reset();
         for (const Sensor& sensor : file.sensors) {
-            if (std::holds_alternative<Camera>(sensor.kind) && setting.method != "local")
+            if (std::holds_alternative<Camera>(sensor.kind) && setting.method != "local" &&
+                setting.apart == Apart::nothing)
                 add_picture(measured, file.scene, sensor, options, other->factor);
         }
     } catch (const InputError& error) {

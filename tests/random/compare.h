@@ -16,12 +16,21 @@ namespace stilb::random {
 /// once in fifty times.
 inline constexpr double kThresholdZ = 5.5;
 
+/// What a run keeps apart; its readings are put together again.
+enum class Apart {
+    nothing,
+    lights,      ///< the sum of what all lights give
+    bounces,     ///< the sum over all numbers of reflections
+    light_scene  ///< of a scene with other factors, the light scene that takes them back
+};
+
 /// How a scene is measured.
 struct Setting {
     std::string method;
     Form form = Form::as_it_is;
     std::uint64_t seed = 1;
     std::uint64_t work = 1;  ///< a factor on the samples
+    Apart apart = Apart::nothing;
 
     std::string words() const;
 };
