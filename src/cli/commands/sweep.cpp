@@ -129,17 +129,14 @@ class SweepTable {
     }
 
     void add(const std::vector<std::string>& variant, const RunResult& result, const RunResult& first) {
-        for (std::size_t s = 0; s < result.sensors.size(); ++s) {
-            const SensorResult& sensor = result.sensors[s];
+        for (const SensorResult& sensor : result.sensors) {
             const bool is_one = sensor.readings.size() == 1;
             for (std::size_t i = 0; i < kStatisticNames.size(); ++i) {
                 const auto statistic = static_cast<Statistic>(i);
                 if (is_one && statistic != Statistic::mean) continue;
                 if (is_ratio(statistic) && !sensor.sensor.has_ratios()) continue;
                 add_row(variant, result, sensor, is_one ? "value" : std::string(name_of(statistic)),
-                        sensor.summary[statistic],
-                        paired_difference(sensor, first.sensors[s], statistic,
-                                          std::max(result.confidence, first.confidence)));
+                        sensor.summary[statistic], difference(sensor, statistic, result, first));
             }
         }
     }
@@ -160,6 +157,15 @@ class SweepTable {
     const std::string& text() const { return text_; }
 
   private:
+    /// Unknown where the first variant has no such readings, or a run was interrupted.
+    static statistics::Estimate difference(const SensorResult& sensor, Statistic statistic,
+                                           const RunResult& result, const RunResult& first) {
+        const auto before = std::ranges::find_if(
+            first.sensors, [&](const SensorResult& own) { return own.sensor.name == sensor.sensor.name; });
+        if (before == first.sensors.end()) return statistics::kUndefinedEstimate;
+        return paired_difference(sensor, *before, statistic, std::max(result.confidence, first.confidence))
+            .value_or(statistics::kUndefinedEstimate);
+    }
     void add_row(const std::vector<std::string>& variant, const RunResult& result, const SensorResult& sensor,
                  const std::string& statistic, const statistics::Estimate& value,
                  const statistics::Estimate& difference) {
@@ -194,6 +200,42 @@ RunOptions for_pairs(RunOptions options) {
     return options;
 }
 
+/// As many samples of the same technique as the first variant had, so that their replicates belong together.
+RunOptions as_in(const RunResult& first, RunOptions options) {
+    options.method = first.technique;
+    options.error.reset();
+    options.time_s.reset();
+    options.paths = first.samples;
+    return options;
+}
+
+RunResult measured(const Measurement& measurement, const RunOptions& options, const run::PreparedScene& scene,
+                   ProgressSink* progress) {
+    RunResult result = run::measure(scene, measurement.sensors, options, progress, &watch_for_interrupt());
+    put_first(measurement.file.warnings, result);
+    return result;
+}
+
+/// The variant that others are compared with.
+struct FirstVariant {
+    FirstVariant(Measurement own, ProgressSink* progress)
+        : measurement(std::move(own)),
+          scene(measurement.file.scene),
+          result(measured(measurement, for_pairs(measurement.options), scene, progress)) {}
+
+    const Measurement measurement;
+    const run::PreparedScene scene;
+    const RunResult result;
+};
+
+RunResult measured_like(const FirstVariant& first, const Measurement& measurement, ProgressSink* progress) {
+    const Scene& scene = measurement.file.scene;
+    const RunOptions options = as_in(first.result, measurement.options);
+    if (have_same_objects(scene, first.measurement.file.scene))
+        return measured(measurement, options, {scene, first.scene}, progress);
+    return measured(measurement, options, scene, progress);
+}
+
 }  // namespace
 
 void SweepFlags::add_to(Command& command) {
@@ -216,40 +258,20 @@ int run_sweep(const SweepFlags& flags, const std::string& csv, bool quiet,
     const std::vector<std::vector<std::string>> variants = variants_of(variations, flags.zips);
     if (!csv.empty()) io::require_writable(csv);
     SweepTable table(variations);
-    std::unique_ptr<const Measurement> first;
-    std::optional<run::PreparedScene> first_prepared;
-    std::optional<RunResult> first_result;
+    std::optional<FirstVariant> first;
     bool has_all_converged = true;
     for (const std::vector<std::string>& variant : variants) {
         std::vector<std::string> overrides;
         for (std::size_t k = 0; k < variant.size(); ++k)
             overrides.push_back(fmt::format("{}={}", variations[k].key, variant[k]));
-        auto measurement = std::make_unique<const Measurement>(prepare(overrides));
-        RunOptions options = for_pairs(measurement->options);
+        Measurement measurement = prepare(overrides);
         TerminalProgress progress;
-        const auto measured = [&](const run::PreparedScene& scene) {
-            return run::measure(scene, measurement->sensors, options, quiet ? nullptr : &progress,
-                                &watch_for_interrupt());
-        };
-        RunResult result;
-        if (!first_result) {
-            first_prepared.emplace(measurement->file.scene);
-            result = measured(*first_prepared);
-            first = std::move(measurement);
-            first_result = result;
-        } else {
-            // As many samples of the same technique, so that replicates belong together.
-            options.method = first_result->technique;
-            options.error.reset();
-            options.time_s.reset();
-            options.paths = first_result->samples;
-            result = have_same_objects(measurement->file.scene, first->file.scene)
-                         ? measured({measurement->file.scene, *first_prepared})
-                         : measured(measurement->file.scene);
-        }
-        put_first((first_result && measurement ? *measurement : *first).file.warnings, result);
+        ProgressSink* const shown = quiet ? nullptr : &progress;
+        const bool is_first = !first;
+        if (is_first) first.emplace(std::move(measurement), shown);
+        const RunResult result = is_first ? first->result : measured_like(*first, measurement, shown);
         has_all_converged = has_all_converged && result.converged;
-        table.add(variant, result, *first_result);
+        table.add(variant, result, first->result);
         if (result.stop_reason == StopReason::interrupted) break;
     }
     Outputs outputs;

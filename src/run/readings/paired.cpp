@@ -1,6 +1,5 @@
 #include "run/readings/paired.h"
 
-#include <stdexcept>
 #include <vector>
 
 namespace stilb::run {
@@ -12,11 +11,11 @@ std::vector<double> residuals_of(const SensorResult& sensor, Statistic statistic
 
 }  // namespace
 
-statistics::Estimate paired_difference(const SensorResult& after, const SensorResult& before,
-                                       Statistic statistic, double confidence) {
+std::optional<statistics::Estimate> paired_difference(const SensorResult& after, const SensorResult& before,
+                                                      Statistic statistic, double confidence) {
     if (after.readings.size() != before.readings.size() ||
         after.replicate_means.size() != before.replicate_means.size())
-        throw std::invalid_argument("the results are not of the same readings and replicates");
+        return std::nullopt;
     const std::vector<double> residuals = residuals_of(before, statistic);
     std::vector<double> differences = residuals_of(after, statistic);
     const double difference = after.summary[statistic].value - before.summary[statistic].value;
