@@ -78,7 +78,7 @@ Numbers replicates(nb::pointer_and_handle<SensorResult> result) {
     return Numbers(values.data(), {readings == 0 ? 0 : values.size() / readings, readings}, result.h);
 }
 
-/// What a part of the light gives, as readings of the sensor; their colours are not known.
+/// The readings of the sensor by one part of the light; their colours are not known.
 SensorResult readings_of(const LightShare& share, const SensorResult& sensor) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     SensorResult own{.name = sensor.name,

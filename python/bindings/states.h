@@ -1,4 +1,4 @@
-// What Python's pickle keeps of results.
+// The values of results that Python's pickle stores.
 #pragma once
 
 #include <nanobind/nanobind.h>

@@ -1,4 +1,4 @@
-"""What the keys of parts mean, with units and defaults, for the docstrings of their classes. docs/scene-format.md says more.
+"""The meaning, unit and default of each key of parts, for the docstrings of their classes. docs/scene-format.md says more.
 
 python/make_stubs.py uses it, too, without the package. A test compares the keys with those of the scene reader.
 """
@@ -194,13 +194,13 @@ KEYS = {
 
 
 def meaning(section: str, kind: str, key: str) -> str:
-    """Of a key, with its unit and default; empty where it is not known."""
+    """The meaning of a key, with its unit and default; empty where it is not known."""
     own = KEYS.get(f"{section}.{kind}", {})
     return own.get(key) or KEYS[section].get(key, "")
 
 
 def docstring(section: str, kind: str, keys: list[str], indent: str = "    ") -> str:
-    """Of a class: what it is, and its keys."""
+    """The docstring of a class: what it is, and its keys."""
     width = max(map(len, keys), default=0)
     lines = [f"{indent}{key:{width}}  {meaning(section, kind, key)}" for key in keys]
     return "\n".join([KINDS[section].get(kind, ""), *([""] if lines else []), *lines])

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
 from functools import cached_property
 
 import numpy as np
@@ -11,6 +10,7 @@ from . import _stilb
 from ._stilb import InputError
 from .estimates import Estimate, Numbers, combined
 from .results import Reading, Result
+from .shares import BySensor
 
 __all__ = ["Pair", "PairedReading", "paired"]
 
@@ -97,22 +97,11 @@ class PairedReading:
         return f"<{self.name}: difference of the means {self.mean}>"
 
 
-class Pair(Mapping[str, PairedReading]):
+class Pair(BySensor[PairedReading]):
     """The differences of the sensors that two runs have in common, by name."""
 
-    def __init__(self, readings: Mapping[str, PairedReading]) -> None:
-        self._readings = dict(readings)
-
-    def __getitem__(self, sensor: str) -> PairedReading:
-        if sensor not in self._readings:
-            raise KeyError(f"the runs have no sensor {sensor!r} in common; they have: {', '.join(self._readings)}")
-        return self._readings[sensor]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._readings)
-
-    def __len__(self) -> int:
-        return len(self._readings)
+    def _absence(self, sensor: str) -> str:
+        return f"the runs have no sensor {sensor!r} in common; they have"
 
     def __repr__(self) -> str:
         return "\n".join(f"{name}: {reading.mean}" for name, reading in self.items())

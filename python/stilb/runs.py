@@ -154,15 +154,28 @@ def merge(runs: Iterable[ResumableRun | Result | str | os.PathLike[str]]) -> Res
     named = [_sums_of(run, number) for number, run in enumerate(runs, 1)]
     if not named:
         raise InputError("there is nothing to merge: the list is empty.")
-    first_name, first = named[0]
-    merged = first.copy()
-    for name, sums in named[1:]:
-        try:
-            merged.state.merge(_in_form_of(merged, sums).state)
-        except InputError as error:
-            text = str(error).removeprefix("state of a run: ")
-            raise InputError(f"{name} cannot be merged with {first_name}: {text}") from None
+    # The parts of each seed first: the sums of several seeds take no further part of one of them.
+    by_seed: dict[tuple[int, ...], tuple[str, Sums]] = {}
+    for name, sums in named:
+        seeds = tuple(sums.state.seeds())
+        if seeds in by_seed:
+            _together(by_seed[seeds], (name, sums))
+        else:
+            by_seed[seeds] = (name, sums.copy())
+    (first_name, merged), *others = by_seed.values()
+    for other in others:
+        _together((first_name, merged), other)
     return ResumableRun(merged)
+
+
+def _together(merged: tuple[str, Sums], other: tuple[str, Sums]) -> None:
+    """Adds the other sums to the first ones. Both have their names, for messages."""
+    (merged_name, into), (name, sums) = merged, other
+    try:
+        into.state.merge(_in_form_of(into, sums).state)
+    except InputError as error:
+        text = str(error).removeprefix("state of a run: ")
+        raise InputError(f"{name} cannot be merged with {merged_name}: {text}") from None
 
 
 def _sums_of(run: ResumableRun | Result | str | os.PathLike[str], number: int) -> tuple[str, Sums]:

@@ -3,35 +3,51 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from .results import Reading
 
 __all__ = ["Readings"]
 
+R = TypeVar("R")
 
-class Readings(Mapping[str, "Reading"]):
+
+class BySensor(Mapping[str, R]):
+    """Something of each sensor, by its name."""
+
+    def __init__(self, by_sensor: Mapping[str, R]) -> None:
+        self._by_sensor = dict(by_sensor)
+
+    def _absence(self, sensor: str) -> str:
+        """What is said of a sensor that is missing, before those that are there."""
+        raise NotImplementedError
+
+    def __getitem__(self, sensor: str) -> R:
+        if sensor not in self._by_sensor:
+            raise KeyError(f"{self._absence(sensor)}: {', '.join(self._by_sensor)}")
+        return self._by_sensor[sensor]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._by_sensor)
+
+    def __len__(self) -> int:
+        return len(self._by_sensor)
+
+
+class Readings(BySensor["Reading"]):
     """The readings of the sensors by a light, a group of lights or a number of reflections, or in a light scene."""
 
     name: str
     power_w: float | None  # of the lamps in a light scene, where it is known
 
     def __init__(self, name: str, readings: Mapping[str, Reading], power_w: float | None = None) -> None:
+        super().__init__(readings)
         self.name = name
         self.power_w = power_w
-        self._readings = dict(readings)
 
-    def __getitem__(self, sensor: str) -> Reading:
-        if sensor not in self._readings:
-            raise KeyError(f"{self.name} has no readings of a sensor {sensor!r}; it has: {', '.join(self._readings)}")
-        return self._readings[sensor]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._readings)
-
-    def __len__(self) -> int:
-        return len(self._readings)
+    def _absence(self, sensor: str) -> str:
+        return f"{self.name} has no readings of a sensor {sensor!r}; it has"
 
     def __repr__(self) -> str:
         return f"<stilb.Readings {self.name}: {', '.join(f'{sensor} {reading.mean}' for sensor, reading in self.items())}>"
