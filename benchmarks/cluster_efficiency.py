@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""What a run on workers of Dask costs beside one process: samples per second of processor time.
+"""Compares runs on Dask workers with a run in one process, by samples per second of processor time.
 
 Usage: cluster_efficiency.py [SCENE] [PATHS] [REPETITIONS]
 

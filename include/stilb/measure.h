@@ -45,7 +45,8 @@ struct Requirement {
     std::string reason{};
 };
 
-/// What a light, a group of lights, or the light of so many reflections gives at the readings of a sensor.
+/// The part of a sensor's readings that comes from one light, one group of lights, or one number of
+/// reflections.
 struct LightShare {
     std::string name;
     std::vector<Estimate> readings;
@@ -88,7 +89,7 @@ struct Summary {
     std::uint64_t samples = 0;  ///< as in Options
     int replicates = 0;         ///< independent repetitions that the errors come from
     double elapsed_s = 0;
-    /// What ended the run: "target reached", "requirements decided", "paths done", "time over", "interrupted"
+    /// Why the run ended: "target reached", "requirements decided", "paths done", "time over", "interrupted"
     /// or "patches too coarse".
     std::string stopped;
     /// False where the error asked for was not reached, or the run was interrupted.
@@ -119,7 +120,7 @@ struct Result : Summary {
 /// knows the scene, the sensors and the options that its samples depend on.
 class RunState {
   public:
-    /// Of a run that has not begun.
+    /// The state of a run that has not begun.
     RunState();
     RunState(const RunState& other);
     RunState& operator=(const RunState& other);

@@ -120,7 +120,7 @@ class SceneBuilder {
     std::unique_ptr<Data> data_;
 };
 
-/// What export_scene() has written.
+/// The files that export_scene() has written.
 struct Export {
     std::vector<std::filesystem::path> files;
     std::vector<std::string> warnings;  ///< of what has no equal in the other program

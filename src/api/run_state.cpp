@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -16,8 +15,8 @@ namespace {
 
 /// Of the state, in messages.
 const std::string kName = "state of a run";
-/// As the command line names them (docs/runs.md).
-constexpr std::string_view kSums = "readings", kCommand = "measure";
+/// As the command line names it (docs/runs.md).
+constexpr std::string_view kCommand = "measure";
 
 }  // namespace
 
@@ -50,14 +49,14 @@ RunState::RunState(std::string_view bytes, const std::string& name) : RunState()
         throw InputError(fmt::format("this is the state of `stilb {}`, not of `stilb {}`.",
                                      stored.origin.command, kCommand),
                          {name});
-    data_->sums = io::read_sums<run::RunState>(stored, kSums, name);
+    data_->sums = io::read_sums<run::RunState>(stored, io::kReadingSums, name);
     data_->origin = std::move(stored.origin);
 }
 
 namespace {
 
 io::StoredRun stored_run(const RunState::Data& data) {
-    io::StoredRun stored{data.origin, {{std::string(kSums), io::sums_of(data.sums)}}};
+    io::StoredRun stored{data.origin, {{std::string(io::kReadingSums), io::sums_of(data.sums)}}};
     stored.origin.version = program_version();
     stored.origin.command = kCommand;
     return stored;
@@ -93,13 +92,7 @@ void RunState::merge(const RunState& other) {
         *data_ = other.data();
         return;
     }
-    const auto without_seed = [](io::RunTraits traits) {
-        std::erase_if(traits, [](const io::RunTrait& trait) { return trait.name == "seed"; });
-        return traits;
-    };
-    io::RunOrigin own;
-    own.traits = without_seed(data_->origin.traits);
-    io::require_same_run(own, without_seed(other.data().origin.traits), kName);
+    io::require_mergeable(data_->origin, other.data().origin.traits, kName);
     try {
         data_->sums.merge(other.data().sums);
         data_->origin.elapsed_s += other.data().origin.elapsed_s;

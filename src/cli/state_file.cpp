@@ -19,11 +19,6 @@ namespace {
 /// Writing takes no more than about this share of the time, however large the sums are.
 constexpr double kShareOfTime = 0.05;
 
-std::string relative_folder(const std::string& path) {
-    const auto folder = std::filesystem::absolute(path).parent_path();
-    return std::filesystem::proximate(std::filesystem::current_path(), folder).generic_string();
-}
-
 std::optional<std::filesystem::file_time_type> stamp_of(const std::string& path) {
     std::error_code error;
     const auto stamp = std::filesystem::last_write_time(path, error);
@@ -59,7 +54,7 @@ StateFile::StateFile(const StateFlags& flags, std::string_view command, const Co
     stored_.origin = {program_version(),
                       std::string(command),
                       without_flags(line.arguments(), own),
-                      relative_folder(path_),
+                      io::relative_folder(std::filesystem::current_path(), path_),
                       traits(),
                       0,
                       ""};
@@ -99,9 +94,7 @@ void StateFile::write(std::optional<StopReason> ending) {
     now.origin.ending = ending ? run::name_of(*ending) : "";
     for (const Kept& kept : kept_) {
         std::string bytes = kept.bytes();
-        if (bytes.empty()) continue;
-        std::erase_if(now.sums, [&](const io::StoredSums& sums) { return sums.name == kept.name; });
-        now.sums.push_back({kept.name, std::move(bytes)});
+        if (!bytes.empty()) now.sums.push_back({kept.name, std::move(bytes)});
     }
     if (now.sums.empty()) return;  // there are no samples yet
     write_run_file(now, path_);

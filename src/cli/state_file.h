@@ -1,6 +1,7 @@
 // The state file of a command (--state): its run goes on from it, and is written into it.
 #pragma once
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -38,9 +39,9 @@ class StateFile {
     template <typename Sums>
     void keep(const std::string& name, Sums& sums) {
         if (path_.empty()) return;
-        for (const io::StoredSums& stored : stored_.sums) {
-            if (stored.name == name) sums = io::read_sums<Sums>(stored_, name, path_);
-        }
+        if (std::ranges::find(stored_.sums, name, &io::StoredSums::name) != stored_.sums.end())
+            sums = io::read_sums<Sums>(stored_, name, path_);
+        std::erase_if(stored_.sums, [&](const io::StoredSums& stored) { return stored.name == name; });
         kept_.push_back({name, [&sums] { return has_begun(sums) ? io::sums_of(sums) : std::string(); }});
     }
 
@@ -79,7 +80,7 @@ class StateFile {
 
     std::string path_;
     double every_s_;
-    io::StoredRun stored_;  ///< as it was read, or begun
+    io::StoredRun stored_;  ///< as it was read, or begun; without the sums that are kept
     std::vector<Kept> kept_;
     std::chrono::steady_clock::time_point begun_ = std::chrono::steady_clock::now();
     std::chrono::steady_clock::time_point written_ = begun_;

@@ -114,7 +114,7 @@ struct GlareView {
     std::vector<GlareSource> sources;
 };
 
-/// What a light, a group of lights, or the light of so many reflections gives.
+/// The part of the readings that comes from one light, one group of lights, or one number of reflections.
 struct Share {
     std::string name;
     std::vector<statistics::Estimate> readings;  ///< in the order of the sensor's

@@ -320,6 +320,17 @@ class Merged(InFolder):
         with self.assertRaisesRegex(stilb.InputError, "part1.run cannot be merged with .*part1.run: both have made the same samples"):
             stilb.merge([files[0], files[0]])
 
+    def test_parts_of_two_seeds_are_merged_in_any_order(self):
+        files = []
+        for number, seed in ((1, 7), (1, 8), (2, 7), (2, 8)):
+            files.append(self.folder / f"{seed}_{number}.run")
+            made = program("measure", self.folder / "room.toml", "--paths", PATHS, "--seed", seed, "--part", f"{number}/2", "--state", files[-1])
+            self.assertEqual(made.returncode, 0, made.stderr)
+        merged = stilb.merge(files)
+        self.assertEqual((merged.seeds, merged.samples), ([7, 8], 2 * PATHS))
+        with self.assertRaisesRegex(stilb.InputError, "7_2.run cannot be merged with .*7_1.run: both have made the same samples"):
+            stilb.merge([*files, files[2]])
+
     def test_seeds_are_merged(self):
         scene = self.scene()
         runs = [scene.start(paths=PATHS, method="path", seed=seed) for seed in (1, 2, 3)]

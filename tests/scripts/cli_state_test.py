@@ -139,6 +139,24 @@ class Merged(StateTest):
         self.assertAlmostEqual(merged["sensors"][1]["values"][0]["value"], expected, delta=1e-3 * expected)
         self.assertEqual(merged["paths"], 3 * 65536)
 
+    def test_parts_of_several_seeds_in_any_order_and_any_folder(self):
+        (self.folder / "runs").mkdir()
+        files = []
+        for number, seed in ((1, 7), (1, 8), (2, 7), (2, 8)):
+            files.append(f"runs/{seed}_{number}.run")
+            self.run_program("measure", self.scene.name, "--paths", "65536", "--seed", seed, "--part", f"{number}/2", "--state", files[-1])
+        both = json.loads(self.run_program("merge", *files, "--state", "both.run", "--json").stdout)
+        again = json.loads(self.run_program("merge", *reversed(files), "--json").stdout)
+        self.assertEqual((both["paths"], again["paths"]), (2 * 65536, 2 * 65536))
+        self.assertEqual([s["values"] for s in both["sensors"]], [s["values"] for s in again["sensors"]])
+        self.assertIn("seeds 7, 8", self.run_program("info", "both.run").stdout)
+        shown = json.loads(self.run_program("measure", "--from", "both.run", "--json").stdout)
+        self.assertEqual([s["values"] for s in both["sensors"]], [s["values"] for s in shown["sensors"]])
+        # The sums lie in another folder than those that were merged: their scene is found all the same.
+        (self.folder / "sums").mkdir()
+        self.run_program("merge", files[0], files[2], "--state", "sums/one.run")
+        self.run_program("resume", "sums/one.run", "--paths", "131072")
+
     def test_refuses_what_does_not_belong_together(self):
         one = self.part(1, 2)
         self.assertIn("both have made the same samples", self.run_program("merge", one, one, code=2).stderr)
@@ -198,6 +216,8 @@ class Refused(StateTest):
             (whole + b"more", "surplus bytes"),
             (b"[scene]\n", "is a file of another kind"),
             (whole[:8] + b"\x63\0\0\0" + whole[12:], "is of version 99"),
+            (whole[:12] + (65536).to_bytes(4, "little") + whole[16:], "the file ends before the size of a chunk"),
+            (whole[:12] + (65537).to_bytes(4, "little") + whole[16:], "65537 chunks"),
         ):
             (self.folder / "room.run").write_bytes(content)
             result = self.run_program(*self.command, code=2)
@@ -226,6 +246,12 @@ class Refused(StateTest):
         self.assertTrue((self.folder / "here.json").exists())
         shown = self.run_program("measure", "--from", "elsewhere/room.run").stdout
         self.assertIn("131072 paths", shown)
+
+    def test_from_takes_no_other_readings(self):
+        self.run_program(*self.command)
+        for more in (["--sensor", "wall"], ["--grid", "z=0.8"], ["--vary", "run.bounces=1,2"], ["--error", "1%"], [self.scene]):
+            message = self.run_program("measure", "--from", "room.run", *more, code=2).stderr
+            self.assertIn("--from", message)
 
     def test_info(self):
         self.run_program(*self.command)

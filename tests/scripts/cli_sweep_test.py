@@ -63,6 +63,10 @@ class SweepTest(CommandLineTest):
         unpaired = math.hypot(*(float(row["interval_high"]) - float(row["interval_low"]) for row in rows))
         self.assertLess(5 * (high - low), unpaired)
 
+    def test_readings_that_the_first_variant_lacks_have_no_difference(self):
+        rows = self.sweep("--vary", "sensors.desk.count=[3, 2],[2, 2]", "--paths", "64", "--sensor", "desk")
+        self.assertEqual([row["difference"] == "" for row in rows], 5 * [False] + 5 * [True])
+
     def test_combinations_and_zip(self):
         keys = ["--vary", "materials.wall.reflectance=0.3,0.5", "--vary", "lights.bulb.flux=500,1000,2000"]
         rows = self.sweep(*keys, "--paths", "64", "--sensor", "wall")
@@ -80,6 +84,7 @@ class SweepTest(CommandLineTest):
         wrong(["measure", self.scene, "--vary", "materials.wal.reflectance=0.2,0.3"], "the scene has no materials.wal")
         wrong(["measure", self.scene, "--vary", "run.seed=1,2", "--vary", "run.bounces=1", "--zip"], "give each key as many")
         wrong(["measure", self.scene, "--vary", "run.seed=1,2", "--json"], "--vary writes one table")
+        wrong(["measure", self.scene, "--vary", "run.seed=1,2", "--check"], "--vary writes one table")
 
 
 class LightScenesTest(CommandLineTest):
@@ -136,6 +141,7 @@ class LightScenesTest(CommandLineTest):
             ("bulbb = 0.5", 'there is no light or group of lights "bulbb". Did you mean "bulb"?'),
             ("bulb = -1", "scenes.evening.bulb"),
             ("bounces = 1.5", "scenes.evening.bounces"),
+            ("bounces = 21", "scenes.evening.bounces"),
             ("maintenance = 2", "scenes.evening.maintenance"),
             ('sensors = ["door"]', 'there is no sensor "door"'),
         ):
@@ -143,6 +149,28 @@ class LightScenesTest(CommandLineTest):
             self.expect_wrong_input(["measure", self.scene], message)
         self.scene = self.write("room.toml", ROOM + SCENES)
         self.expect_wrong_input(["measure", self.scene, "--method", "radiosity"], "keeps the light of lamps and of bounces together")
+
+    def test_most_bounces(self):
+        for bounces in (19, 20):
+            self.scene = self.write("room.toml", ROOM + f"[scenes.evening]\nbounces = {bounces}\n")
+            document = self.measure("--paths", "64", "--method", "path")
+            whole, lit = document["sensors"][0], document["scenes"]["evening"]["sensors"][0]
+            self.assertLess(lit["summary"]["mean"], whole["summary"]["mean"])
+            self.assertGreater(lit["summary"]["mean"], 0.99 * whole["summary"]["mean"])
+
+    def test_odd_names(self):
+        """Of groups: parts of texts, of columns of CSV and of layers."""
+        name = 'a "b", c.d = {é} %'
+        quoted = json.dumps(name, ensure_ascii=False)
+        scene = ROOM.replace("flux = 1000", f"flux = 1000\ngroup = {quoted}") + f"[scenes.evening]\n{quoted} = 0.5\n"
+        self.scene = self.write("room.toml", scene + CAMERA.replace("[640, 480]", "[16, 12]"))
+        document = self.measure("--paths", "64", "--by", "light", "--csv", self.folder / "out")
+        self.assertEqual(document["sensors"][0]["shares"][0]["name"], name)
+        with (self.folder / "out/desk.csv").open(newline="") as file:
+            header = next(csv.reader(file))
+        self.assertTrue(any(column.startswith("illuminance_lx_of_") for column in header))
+        result = run("render", self.scene, "--by", "light", "--paths", "2", "-o", self.folder / "view.exr")
+        self.assertEqual(result.returncode, 0, result.stderr)
 
     def test_dimming_after_the_run(self):
         state = self.folder / "lamps.run"

@@ -171,7 +171,7 @@ int run_measure(const MeasureRequest& request, const CommandLine& line) {
         return io::traits_of(measurement.file, measurement.sensors, measurement.options);
     });
     run::RunState state;
-    state_file.keep(std::string(kReadingSums), state);
+    state_file.keep(std::string(io::kReadingSums), state);
     if (!state.more_seeds.empty()) {
         throw InputError(
             "the state is merged from runs of several seeds, and cannot go on. Make a run with another "
@@ -199,11 +199,12 @@ int run_measure(const MeasureRequest& request, const CommandLine& line) {
 
 /// --csv names the file of the table.
 int sweep(const MeasureRequest& request) {
-    if (!request.files.json_files().empty() || !request.files.picture.empty() || request.part ||
-        !request.state.path.empty())
+    if (!request.files.json_files().empty() || !request.files.picture.empty() ||
+        request.files.has_replicates || request.part || !request.state.path.empty() || request.format ||
+        request.flags.checks)
         throw InputError(
-            "--vary writes one table, with --csv FILE: it takes no --json, -o, --falsecolor, --state or "
-            "--part.");
+            "--vary writes one table, with --csv FILE: it takes no --json, -o, --falsecolor, --replicates, "
+            "--format, --check, --state or --part.");
     return run_sweep(request.sweep, request.files.csv_directory, request.flags.run.quiet,
                      [&](const std::vector<std::string>& overrides) {
                          MeasureRequest variant = request;
@@ -217,8 +218,7 @@ int sweep(const MeasureRequest& request) {
 /// A path of a stored run, which was given in its folder.
 std::string path_from(const std::string& path, const io::RunOrigin& origin, const std::string& file) {
     if (path.empty()) return path;
-    const auto folder = std::filesystem::path(file).parent_path() / origin.folder;
-    return (folder / path).lexically_normal().string();
+    return (folder_of(origin, file) / path).lexically_normal().string();
 }
 
 }  // namespace
@@ -335,6 +335,12 @@ int show_from(const MeasureRequest& request) {
             "{} has no effect with --from, which adds no samples. Go on with the run: stilb resume {}.",
             given.front(), request.from));
     }
+    if (!request.flags.sensors.empty() || request.flags.grid || !request.points.empty() || request.format ||
+        !request.sweep.vary.empty())
+        throw InputError(
+            "--from shows the readings of its run as they are: it takes no --sensor, --grid, --points, "
+            "--format "
+            "or --vary.");
     std::vector<std::string> overrides = request.flags.overrides;
     ShowFlags flags{request.files, request.flags.checks, request.flags.run.quiet, {}};
     flags.dimmed.name = "dimmed";
@@ -365,7 +371,7 @@ int show_stored(const io::StoredRun& stored, const std::string& name, const Show
     const Measurement measurement = prepared(request);
     const auto& [file, sensors, options] = measurement;
     require_same_run(stored.origin, io::traits_of(file, sensors, options), name);
-    auto state = io::read_sums<run::RunState>(stored, kReadingSums, name);
+    auto state = io::read_sums<run::RunState>(stored, io::kReadingSums, name);
     RunResult result = run::result_of(file.scene, sensors, options, state,
                                       flags.dimmed.factors.empty() ? nullptr : &flags.dimmed, nullptr,
                                       &watch_for_interrupt());

@@ -12,9 +12,6 @@
 
 namespace stilb::cli {
 
-/// The name of the sums of readings in state files.
-inline constexpr std::string_view kReadingSums = "readings";
-
 /// The flags of the files with readings.
 struct ReadingFiles {
     /// Where JSON goes: "-" is standard output, which then gets no table.

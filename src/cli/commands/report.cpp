@@ -105,7 +105,7 @@ class Reporting {
         const std::string_view samples = estimators::find_estimator(report_.options.method).samples;
         TerminalProgress progress(std::string(samples), request_.flags.run.off_terminal());
         KeepingState keeping(shown(progress), state_file_);
-        state_file_.keep(std::string(kReadingSums), readings_);
+        state_file_.keep(std::string(io::kReadingSums), readings_);
         report_.readings = state_file_.keeping_state([&] {
             return run::measure(report_.file.scene, meters, report_.options, &keeping, &watch_for_interrupt(),
                                 &readings_);

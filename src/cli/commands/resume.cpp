@@ -73,13 +73,13 @@ int run_resume(const ResumeRequest& request, const RunCommands& run_commands) {
         return kExitDone;
     }
     const std::vector<std::string> arguments = arguments_of(request, origin);
-    const auto folder = std::filesystem::absolute(request.file).parent_path() / origin.folder;
+    const std::filesystem::path folder = folder_of(origin, request.file);
     std::error_code error;
     std::filesystem::current_path(folder, error);
     if (error) {
         throw InputError(fmt::format("the run was begun in '{}', which cannot be entered now. Move the state "
                                      "file and its scene together.",
-                                     folder.lexically_normal().string()),
+                                     folder.string()),
                          {request.file});
     }
     return run_commands(arguments);

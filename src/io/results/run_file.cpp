@@ -297,6 +297,25 @@ void require_same_run(const RunOrigin& stored, const RunTraits& traits, const st
     }
 }
 
+void require_mergeable(const RunOrigin& stored, const RunTraits& traits, const std::string& name) {
+    const auto without_seed = [](RunTraits all) {
+        std::erase_if(all, [](const RunTrait& trait) { return trait.name == "seed"; });
+        return all;
+    };
+    RunOrigin own;
+    own.traits = without_seed(stored.traits);
+    require_same_run(own, without_seed(traits), name);
+}
+
+std::filesystem::path folder_of(const RunOrigin& origin, const std::filesystem::path& state_file) {
+    return (std::filesystem::absolute(state_file).parent_path() / origin.folder).lexically_normal();
+}
+
+std::string relative_folder(const std::filesystem::path& folder, const std::filesystem::path& state_file) {
+    return std::filesystem::proximate(folder, std::filesystem::absolute(state_file).parent_path())
+        .generic_string();
+}
+
 template <typename Sums>
 Sums read_sums(const StoredRun& stored, std::string_view name, const std::string& file) {
     const auto found = std::ranges::find(stored.sums, name, &StoredSums::name);

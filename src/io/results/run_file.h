@@ -44,9 +44,12 @@ struct RunOrigin {
     std::string ending;    ///< why it ended (run::StopReason); empty while it runs
 };
 
+/// The name of the sums of readings.
+inline constexpr std::string_view kReadingSums = "readings";
+
 /// The sums of one result of a run.
 struct StoredSums {
-    std::string name;  ///< "readings", or that of a picture's camera
+    std::string name;  ///< kReadingSums, "solution", or that of a picture's camera
     std::string bytes;
 };
 
@@ -64,7 +67,15 @@ struct StoredRun {
 /// message names what differs.
 void require_same_run(const RunOrigin& stored, const RunTraits& traits, const std::string& name);
 
-/// The bytes of sums: of RunState or PictureSums.
+/// The same where the samples of a run are to be added to those of the stored one, which may have another
+/// seed.
+void require_mergeable(const RunOrigin& stored, const RunTraits& traits, const std::string& name);
+
+/// The folder in which the run of a state file was begun; and as the state file of this name states it.
+std::filesystem::path folder_of(const RunOrigin& origin, const std::filesystem::path& state_file);
+std::string relative_folder(const std::filesystem::path& folder, const std::filesystem::path& state_file);
+
+/// The bytes of sums: of RunState, PictureSums or SolutionState.
 template <typename Sums>
 std::string sums_of(const Sums& sums) {
     ByteWriter bytes;

@@ -19,7 +19,7 @@ Json plan_json(const run::RunPlan& plan) {
 
 Json sums_json(const io::StoredRun& stored, const io::StoredSums& sums, const std::string& file) {
     Json json{{"name", sums.name}, {"bytes", sums.bytes.size()}};
-    if (sums.name == kReadingSums) {
+    if (sums.name == io::kReadingSums) {
         const auto state = io::read_sums<run::RunState>(stored, sums.name, file);
         json.update(plan_json(state.plan));
         json["seeds"] = state.seeds();
