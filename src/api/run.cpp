@@ -63,7 +63,7 @@ Summary summary(const RunSummary& run, std::span<const Warning> of_file) {
                     .samples = run.samples,
                     .replicates = run.replicates,
                     .elapsed_s = run.elapsed_s,
-                    .stopped = std::string(run::kStopReasonNames[static_cast<std::size_t>(run.stop_reason)]),
+                    .stopped = std::string(run::name_of(run.stop_reason)),
                     .converged = run.converged,
                     .requested_error = run.requested_error,
                     .attained_error = run.attained_error,
@@ -275,11 +275,7 @@ Result result_of(const Scene& scene, const RunState& state, const std::optional<
     for (const auto& [name, factor] : factors) dimmed.factors.push_back(light_factor(name, factor));
     RunResult result =
         run::result_of(scene.data().prepared, meters, run, own.sums, factors.empty() ? nullptr : &dimmed);
-    result.elapsed_s = own.origin.elapsed_s;
-    // Merged parts are all that was asked for, and may have met the error.
-    const StopReason ended = io::stop_reason_of(own.origin).value_or(StopReason::interrupted);
-    if (ended != StopReason::paths_done) result.stop_reason = ended;
-    if (ended == StopReason::interrupted) result.converged = false;
+    io::set_ending(own.origin, result);
     return result_from(scene, std::move(result));
 }
 

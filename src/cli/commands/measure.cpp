@@ -375,9 +375,7 @@ int show_stored(const io::StoredRun& stored, const std::string& name, const Show
     RunResult result = run::result_of(file.scene, sensors, options, state,
                                       flags.dimmed.factors.empty() ? nullptr : &flags.dimmed, nullptr,
                                       &watch_for_interrupt());
-    result.elapsed_s = stored.origin.elapsed_s;
-    result.stop_reason = io::stop_reason_of(stored.origin).value_or(StopReason::interrupted);
-    if (result.stop_reason == StopReason::interrupted) result.converged = false;
+    io::set_ending(stored.origin, result);
     Outputs outputs;
     return show(std::move(result), measurement, request, outputs);
 }

@@ -122,6 +122,13 @@ bool is_limit(std::string_view key) {
     return std::ranges::find(limits, key) != limits.end();
 }
 
+/// Nothing of a run that goes on.
+std::optional<StopReason> stop_reason_of(const RunOrigin& origin) {
+    const auto found = std::ranges::find(run::kStopReasonNames, origin.ending);
+    if (found == run::kStopReasonNames.end()) return std::nullopt;
+    return static_cast<StopReason>(found - run::kStopReasonNames.begin());
+}
+
 // Texts.
 
 std::string difference(const RunTrait* stored, const RunTrait* asked) {
@@ -265,10 +272,12 @@ RunTraits traits_of(const SceneFile& scene, std::span<const Sensor> sensors, con
     return traits;
 }
 
-std::optional<StopReason> stop_reason_of(const RunOrigin& origin) {
-    const auto found = std::ranges::find(run::kStopReasonNames, origin.ending);
-    if (found == run::kStopReasonNames.end()) return std::nullopt;
-    return static_cast<StopReason>(found - run::kStopReasonNames.begin());
+void set_ending(const RunOrigin& origin, RunResult& result) {
+    result.elapsed_s = origin.elapsed_s;
+    // Merged parts are all that was asked for, and may have met the error.
+    const StopReason ended = stop_reason_of(origin).value_or(StopReason::interrupted);
+    if (ended != StopReason::paths_done) result.stop_reason = ended;
+    if (ended == StopReason::interrupted) result.converged = false;
 }
 
 bool is_finished(const RunOrigin& origin) {

@@ -53,8 +53,9 @@ struct StoredSums {
     std::string bytes;
 };
 
-/// Nothing of a run that goes on.
-std::optional<StopReason> stop_reason_of(const RunOrigin& origin);
+/// Gives the result of stored sums the time and the ending of their run; one that goes on counts as
+/// interrupted.
+void set_ending(const RunOrigin& origin, RunResult& result);
 /// Whether the run has ended with nothing left to do at its limits.
 bool is_finished(const RunOrigin& origin);
 
