@@ -320,6 +320,31 @@ class Merged(InFolder):
         with self.assertRaisesRegex(stilb.InputError, "part1.run cannot be merged with .*part1.run: both have made the same samples"):
             stilb.merge([files[0], files[0]])
 
+    def test_runs_of_other_scenes_are_not_merged(self):
+        def run(seed, change=lambda scene: None):
+            scene = built()
+            change(scene)
+            run = scene.start(paths=256, method="path", seed=seed)
+            run.finish()
+            return run
+
+        def move(scene):
+            scene.lights["bulb"].position = (1.5, 1.5, 2.3)
+
+        def turn(scene):
+            scene.objects["room"] = stilb.Box(min=(0, 0, 0), max=(4, 3, 2.5), material="wall")
+            scene.materials["wall"] = stilb.Ward(diffuse=.3, specular=.2, roughness=(.2, .2))
+
+        def roughen(scene):
+            turn(scene)
+            scene.materials["wall"].roughness = (.2, .21)
+
+        stilb.merge([run(1), run(2)])
+        stilb.merge([run(1, turn), run(2, turn)])
+        for first, second in ((None, move), (None, turn), (turn, roughen)):
+            with self.assertRaisesRegex(stilb.InputError, "run 2 cannot be merged with run 1: .* its scene"):
+                stilb.merge([run(1, first) if first else run(1), run(2, second)])
+
     def test_parts_of_two_seeds_are_merged_in_any_order(self):
         files = []
         for number, seed in ((1, 7), (1, 8), (2, 7), (2, 8)):

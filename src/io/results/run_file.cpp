@@ -13,6 +13,7 @@
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
 #include "io/text/text.h"
+#include "materials/model_list.h"
 #include "run/pictures/picture_sums.h"
 #include "run/readings/division.h"
 #include "run/solve.h"
@@ -95,15 +96,28 @@ std::string fingerprint_of(const Scene& scene) {
     for (const Object& object : scene.objects) {
         print.add(object.name);
         print.add(bounds_of(object.shape));
+        print.add(area_m2(object.shape));
         for (const MaterialId material : object.materials) print.add(material);
     }
     for (const NamedMaterial& material : scene.materials) {
         print.add(material.name);
-        print.add(reflectance_bound(material.material));
+        materials::visit_model(
+            [&]<typename Model>(const Model& model) {
+                print.add(Model::kType);
+                for_each_field<materials::ParametersOf<Model>>(
+                    [&](const auto& field) { print.add(materials::parameters_of(model).*field.member); });
+            },
+            material.material);
     }
     for (const Light& light : scene.lights) {
         print.add(light.name);
+        print.add(type_of(light));
         print.add(scene::flux_lm(scene, light));
+        if (const auto origin = lights::point_origin(light)) {
+            print.add(origin->position);
+            print.add(origin->axis.value_or(Vec3{}));
+            print.add(origin->intensity_cd.value_or(Rgb{}));
+        }
     }
     return print.text();
 }
