@@ -92,7 +92,8 @@ class Converter:
 
     def material_of(self, modifier: dict[str, Any]) -> stilb.Material:
         if modifier["type"] == "Glass":
-            return stilb.Pane(ior=modifier.get("refraction_index") or 1.52, internal_transmittance=bands(modifier, "transmissivity"))
+            return stilb.Pane(ior=modifier.get("refraction_index") or 1.52,
+                              internal_transmittance=bands(modifier, "transmissivity"))
         if modifier["type"] == "Plastic":
             if modifier.get("specularity"):
                 self.left_out["gloss of Plastic modifiers"] += 1

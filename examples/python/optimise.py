@@ -1,6 +1,6 @@
 """Where do four ceiling panels light a room most uniformly? A search that accepts a step only where it is certain.
 
-    python optimise.py --paths 1024
+    python optimise.py --paths 1024 --least-step 0.02
 
 The panels stand symmetrically about the middle of the room. The search tries a step in each direction and takes the best
 one whose gain is more than its error; where there is none, it halves the step. All layouts have the same random numbers,
@@ -42,6 +42,10 @@ def gain(after: stilb.Result, before: stilb.Result) -> stilb.Estimate:
     return stilb.paired(after, before)["task"].uniformity
 
 
+def described(layout: tuple[float, float]) -> str:
+    return f"panels {layout[0]:.2f} m and {layout[1]:.2f} m from the middle"
+
+
 def is_inside(layout: tuple[float, float]) -> bool:
     return all(PANEL / 2 <= distance <= middle - PANEL / 2 for distance, middle in zip(layout, MIDDLE))
 
@@ -53,9 +57,9 @@ def main() -> None:
     parser.add_argument("--least-step", type=float, default=0.1, help="the last one [m] (0.1)")
     arguments = parser.parse_args()
 
-    scene, layout, step = office(), (1.0, 0.7), arguments.step
-    start = best = measured(scene, layout, arguments.paths)
-    print(f"start        panels {layout[0]:.2f} m and {layout[1]:.2f} m from the middle: uniformity {best['task'].uniformity}")
+    scene, start, step = office(), (1.0, 0.7), arguments.step
+    layout, best = start, measured(scene, start, arguments.paths)
+    print(f"start        {described(layout)}: uniformity {best['task'].uniformity}")
     while step > arguments.least_step * 0.999:
         x, y = layout
         around = [(x + step, y), (x - step, y), (x, y + step), (x, y - step)]
@@ -65,13 +69,13 @@ def main() -> None:
         if better:
             layout = max(better, key=lambda trial: gains[trial].value)
             best = trials[layout]
-            print(f"step {step:.2f} m  panels {layout[0]:.2f} m and {layout[1]:.2f} m from the middle: {gains[layout]} more uniform")
+            print(f"step {step:.2f} m  {described(layout)}: {gains[layout]} more uniform")
         else:
+            print(f"step {step:.2f} m  none is better for certain")
             step /= 2
-            print(f"step {step:.2f} m  from here: no larger one is better for certain")
 
-    checked, was = (measured(scene, place, 4 * arguments.paths, seed=2) for place in (layout, (1.0, 0.7)))
-    print(f"Found: {layout[0]:.2f} m and {layout[1]:.2f} m from the middle, uniformity {best['task'].uniformity}")
+    checked, was = (measured(scene, place, 4 * arguments.paths, seed=2) for place in (layout, start))
+    print(f"Found: {described(layout)}, uniformity {best['task'].uniformity}")
     print(f"With another seed: {checked['task'].uniformity}, {gain(checked, was)} more than at the start")
 
 
