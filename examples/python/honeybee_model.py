@@ -60,7 +60,8 @@ class Converter:
         return self.scene
 
     def items(self) -> Iterator[tuple[dict[str, Any], str, list[Any]]]:
-        """All surfaces, each with its kind and what is cut out of it."""
+        """All surfaces, each with its kind and what is cut out of it. A wall between two rooms is taken once: its second side
+        comes when the first one is in the scene."""
         for room in self.model.get("rooms") or []:
             yield from ((shade, "Shade", []) for shade in shades_of(room))
             for face in room["faces"]:

@@ -7,6 +7,7 @@ Without a scheduler, a cluster of two processes on this machine does the work. N
 
 import argparse
 import contextlib
+from pathlib import Path
 
 import distributed
 
@@ -18,7 +19,7 @@ from many_rooms import measured, room, table
 def client_of(scheduler: str | None):
     if scheduler:
         with distributed.Client(scheduler) as client:
-            client.upload_file(measured.__code__.co_filename)  # the workers need the module of the function
+            client.upload_file(Path(__file__).with_name("many_rooms.py"))  # workers need the module of the function
             yield client
     else:
         with distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as cluster:
