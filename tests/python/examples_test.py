@@ -50,7 +50,7 @@ class Examples(unittest.TestCase):
                 self.assertTrue(f'"{example.name}"' in own or example.name == "tour.py", "it has no test")
 
     def test_light_is_proportional_to_the_lamp(self):
-        text = self.printed("sweep.py", "--paths", 2048, "--reflectances", 0.5, "--fluxes", 800, 1600)
+        text = self.printed("sweep.py", "--paths", 1024, "--reflectances", 0.5, "--fluxes", 800, 1600)
         (lamp, _), (double, _) = self.estimates(text, r"800 lm  ") + self.estimates(text, r"1600 lm  ")
         self.assertAlmostEqual(double, 2 * lamp, delta=0.02)
         (_, (change, error)) = self.estimates(text, rf"lm  {ESTIMATE} +")
