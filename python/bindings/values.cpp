@@ -27,6 +27,15 @@ Value list_of(nb::handle sequence, const std::string& path) {
     return list;
 }
 
+/// Of a number or an array of NumPy. Its widest numbers stay what they are.
+Value numpy_value_of(nb::handle value, const std::string& path) {
+    const nb::object plain = value.attr("tolist")();
+    if (!plain.type().is(value.type())) return value_of(plain, path);
+    const double number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred()) throw nb::python_error();
+    return number;
+}
+
 }  // namespace
 
 Value value_of(nb::handle value, const std::string& path) {
@@ -35,8 +44,7 @@ Value value_of(nb::handle value, const std::string& path) {
     if (PyFloat_Check(value.ptr())) return PyFloat_AS_DOUBLE(value.ptr());
     if (PyUnicode_Check(value.ptr())) return text_of(value);
     if (PyDict_Check(value.ptr())) return parameters_of(nb::borrow<nb::dict>(value), path);
-    // NumPy's arrays and numbers become Python's.
-    if (nb::hasattr(value, "tolist")) return value_of(value.attr("tolist")(), path);
+    if (nb::hasattr(value, "tolist")) return numpy_value_of(value, path);
     if (nb::hasattr(value, "__fspath__")) return text_of(value.attr("__fspath__")());
     if (PySequence_Check(value.ptr())) return list_of(value, path);
     throw InputError(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import logging
 import math
 import pickle
 from collections.abc import Callable, Iterable
@@ -9,6 +10,7 @@ from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from . import _stilb
 from ._stilb import InputError
+from ._wrong import require_scene, wrong_type
 from .options import Limits, options
 from .results import Result, warn_of
 from .sums import Sums
@@ -42,7 +44,12 @@ def measure(scene: Scene, client: distributed.Client, *, parts: int | None = Non
     limits    as in other runs; `threads` are those of a part (default: 1, as workers count their own), and `time` does not
               apply
     """
-    needed("distributed", 'pip install "stilb[distributed]"')
+    require_scene(scene)
+    module = needed("distributed", 'pip install "stilb[distributed]"')
+    if not isinstance(client, module.Client):
+        raise wrong_type("client", client, 'a distributed.Client, such as distributed.Client("tcp://scheduler:8786")')
+    if not (progress is None or callable(progress)):
+        raise wrong_type("progress", progress, "a function that gets a stilb.Result")
     run = _Run(scene, client, scene._names(sensors), limits, parts)
     try:
         result = run.result(progress)
@@ -61,8 +68,15 @@ def _plan(scene: Scene, sensors: list[str], limits: Limits) -> bytes:
     return state.bytes()
 
 
+def _is_news(record: logging.LogRecord) -> bool:
+    """Of the log of a worker. One that is closed while it still works on a part that was cancelled says so."""
+    message = record.getMessage()
+    return not ("<Task cancelled" in message and "execute('_part-" in message)
+
+
 def _part(scene: Scene, sensors: list[str], limits: Limits, part: int, parts: int, before: bytes) -> bytes:
     """The part with the samples of `limits`; `before`: its state with fewer of them, or that of the plan."""
+    logging.getLogger("distributed.worker.state_machine").addFilter(_is_news)
     state = _stilb.RunState.read(before, "part of a run")
     _stilb.measure_part(scene._scene(), options(scene._scene(), limits), sensors, part, parts, state)
     return state.bytes()

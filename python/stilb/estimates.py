@@ -6,7 +6,7 @@ import math
 import operator
 from collections.abc import Callable, Mapping
 from functools import cached_property
-from typing import Any, NamedTuple, cast
+from typing import Any, NamedTuple, NoReturn, TypeVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,9 +14,10 @@ from numpy.typing import NDArray
 from . import _stilb
 from ._stilb import InputError
 
-__all__ = ["Errors", "Estimate", "ResultWarning", "RunKey"]
+__all__ = ["Errors", "Estimate", "Interval", "ResultWarning", "RunKey"]
 
 Numbers = NDArray[np.float64]
+End = TypeVar("End")  # a number, or an array
 
 
 class ResultWarning(UserWarning):
@@ -27,7 +28,7 @@ class RunKey(NamedTuple):
     """A run, as far as the errors of its numbers are concerned."""
 
     token: str
-    seed: int
+    seeds: tuple[int, ...]
     confidence: float  # nominal, of its intervals
 
 
@@ -37,6 +38,7 @@ class Margin(NamedTuple):
     slope: float
     below: float
     above: float
+    is_of_rare_light: bool  # above, and alone
 
 
 class Errors(NamedTuple):
@@ -46,13 +48,50 @@ class Errors(NamedTuple):
     margins: Mapping[tuple[str, str], Margin]  # of each number of a run that it was computed from
 
     @classmethod
-    def of_statistic(cls, estimate: _stilb.Estimate, key: RunKey, name: str, residuals: Numbers) -> Errors:
-        """Of a number of a run with this name."""
+    def of_statistic(cls, estimate: _stilb.Estimate, key: RunKey, name: str, residuals: Numbers, *,
+                     has_rare_light_alone: bool) -> Errors:
+        """Of a number of a run with this name. `has_rare_light_alone`: whether its interval has nothing else above Student's
+        t."""
         own = {key: residuals}
         half_width = _half_width(own, key.confidence)
         margin = Margin(1.0, max(0.0, estimate.value - estimate.lower - half_width),
-                        max(0.0, estimate.upper - estimate.value - half_width))
+                        max(0.0, estimate.upper - estimate.value - half_width), has_rare_light_alone)
         return cls(own, {(key.token, name): margin})
+
+
+class Interval(tuple[End, End]):
+    """The lower and the upper end of a 95 % interval: `low, high = desk.mean.interval`. With another confidence, which is
+    given as to a function, it is wider or narrower by the ratio of Student's t: `desk.mean.interval(0.99)`."""
+
+    _value: Any
+    _degrees: Callable[[], int]
+
+    @classmethod
+    def of(cls, low: End, high: End, value: End, degrees: Callable[[], int]) -> Interval[End]:
+        """`degrees`: of freedom of Student's t."""
+        made = cls((low, high))
+        made._value, made._degrees = value, degrees
+        return made
+
+    def __call__(self, confidence: float = 0.95) -> tuple[End, End]:
+        if confidence == 0.95:
+            return self
+        factor = _width_ratio(confidence, self._degrees())
+        low, high = self
+        return self._value - factor * (self._value - low), self._value + factor * (high - self._value)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return tuple, (tuple(self),)
+
+
+def _width_ratio(confidence: float, degrees: int) -> float:
+    """Of intervals of this confidence to those of 95 %."""
+    if not isinstance(confidence, float | int | np.floating) or not 0 < confidence < 1:
+        raise InputError(f"confidence {confidence}: expected a probability between 0 and 1, such as 0.95.")
+    if degrees < 1:
+        return float("nan")
+    own, usual = (_stilb.statistics.student_t_quantile((1 + level) / 2, degrees) for level in (confidence, 0.95))
+    return own / usual
 
 
 class Estimate:
@@ -63,19 +102,20 @@ class Estimate:
     of two results with the same seed are correlated in ways that differ from sensor to sensor: `stilb.paired` has their
     difference, and arithmetic refuses them.
 
-    `format(estimate, ".1f")` formats the value alone.
+    `low, high = estimate.interval`, and `estimate.interval(0.99)` has another confidence. `format(estimate, ".1f")` formats
+    the value alone. Estimates have no order, no absolute value and are not rounded: `estimate.value` does and is.
     """
 
     value: float
     standard_error: float
-    interval: tuple[float, float]
+    interval: Interval[float]
     unit: str
 
     def __init__(self, value: float, standard_error: float, interval: tuple[float, float], unit: str,
                  errors: Callable[[], Errors]) -> None:
         self.value = value
         self.standard_error = standard_error
-        self.interval = interval
+        self.interval = Interval.of(*interval, value, lambda: _degrees(errors().residuals))
         self.unit = unit
         self._make_errors = errors
 
@@ -123,6 +163,20 @@ class Estimate:
     def __rtruediv__(self, other: Estimate | float) -> Estimate:
         return cast(Estimate, _calculated(operator.truediv, other, self))
 
+    def _has_no_order(self, other: object) -> NoReturn:
+        raise TypeError("estimates have intervals, and no order. Compare their values (estimate.value), the ends of their "
+                        "intervals (low, high = estimate.interval), or ask whether 0 lies in the interval of their difference.")
+
+    __lt__ = __le__ = __gt__ = __ge__ = _has_no_order
+
+    def __abs__(self) -> NoReturn:
+        raise TypeError("an absolute value has no interval that is known from that of the estimate, as it is never below 0. "
+                        "Take that of the value: abs(estimate.value).")
+
+    def __round__(self, digits: int | None = None) -> NoReturn:
+        raise TypeError('estimates are not rounded, as their intervals would no longer hold. Round the value, '
+                        'round(estimate.value, 1), or format it, f"{estimate:.1f}".')
+
 
 def _restored(value: float, standard_error: float, interval: tuple[float, float], unit: str, errors: Errors) -> Estimate:
     return Estimate(value, standard_error, interval, unit, lambda: errors)
@@ -141,10 +195,26 @@ def combined(value: float, unit: str, operands: list[tuple[Errors, float]]) -> E
             before = margins[source].slope if source in margins else 0.0
             margins[source] = margin._replace(slope=before + slope * margin.slope)
     half_width = _half_width(residuals, max(key.confidence for key in residuals))
-    below = half_width + sum(abs(m.slope) * (m.below if m.slope > 0 else m.above) for m in margins.values())
-    above = half_width + sum(abs(m.slope) * (m.above if m.slope > 0 else m.below) for m in margins.values())
-    return Estimate(value, _standard_error(residuals), (value - below, value + above), unit,
-                    lambda: Errors(residuals, margins))
+    low, high = value - half_width - _beyond(margins, -1.0), value + half_width + _beyond(margins, 1.0)
+    return Estimate(value, _standard_error(residuals), (low, high), unit, lambda: Errors(residuals, margins))
+
+
+def _beyond(margins: Mapping[tuple[str, str], Margin], side: float) -> float:
+    """By how much all margins widen the upper side of an interval (1.0) or the lower one (-1.0).
+
+    The errors of patches and of selections are biases, which add up. Independent runs miss rare light independently: its
+    margins add up within each run, and in quadrature over the runs. A mean of runs is then never surer than the run that they
+    are when they are merged: docs/statistics.md.
+    """
+    biases, rare = 0.0, dict[str, float]()
+    for (token, _), margin in margins.items():
+        is_above = margin.slope * side > 0
+        own = abs(margin.slope) * (margin.above if is_above else margin.below)
+        if margin.is_of_rare_light and is_above:
+            rare[token] = rare.get(token, 0.0) + own
+        else:
+            biases += own
+    return biases + math.hypot(*rare.values())
 
 
 def _calculated(operation: Callable[[float, float], float], left: Any, right: Any) -> Any:
@@ -179,9 +249,14 @@ def _unit(operation: Callable[[float, float], float], left: Any, right: Any) -> 
 
 
 def _require_known_correlation(key: RunKey, others: Mapping[RunKey, Numbers]) -> None:
-    if any(key.seed == other.seed and key.token != other.token for other in others):
-        raise InputError(f"these numbers come from two runs with the same seed ({key.seed}), so that their errors are "
-                         "correlated. Use stilb.paired(after, before) for differences, or another seed for one of the runs.")
+    for other in others:
+        common = sorted({*key.seeds} & {*other.seeds})
+        if key.token == other.token or not common:
+            continue
+        way_out = ("Use stilb.paired(after, before) for differences, or another seed for one of the runs."
+                   if {*key.seeds} == {*other.seeds} else "Take runs without a common seed.")
+        raise InputError(f"these numbers come from two runs with the same seed ({', '.join(map(str, common))}), so that their "
+                         f"errors are correlated. {way_out}")
 
 
 def _standard_error(residuals: Mapping[RunKey, Numbers]) -> float:
@@ -194,15 +269,20 @@ def _variance(differences: Numbers) -> float:
 
 
 def _half_width(residuals: Mapping[RunKey, Numbers], confidence: float) -> float:
-    """Student's t; of several runs with the degrees of freedom by Welch and Satterthwaite."""
-    variances = [_variance(differences) for differences in residuals.values()]
-    whole = sum(variances)
+    """Student's t."""
+    whole = sum(_variance(differences) for differences in residuals.values())
     if not whole > 0:
         return whole  # 0 or not a number
-    spread = sum(variance**2 / (len(differences) - 1)
-                 for variance, differences in zip(variances, residuals.values(), strict=True))
-    degrees = max(1, math.floor(whole**2 / spread * (1 + 1e-9)))
-    return _stilb.statistics.student_t_quantile((1 + confidence) / 2, degrees) * math.sqrt(whole)
+    return _stilb.statistics.student_t_quantile((1 + confidence) / 2, _degrees(residuals)) * math.sqrt(whole)
+
+
+def _degrees(residuals: Mapping[RunKey, Numbers]) -> int:
+    """Of freedom; of several runs by Welch and Satterthwaite."""
+    runs = [(_variance(differences), len(differences) - 1) for differences in residuals.values()]
+    spread = sum(variance**2 / degrees for variance, degrees in runs)
+    if not spread > 0:
+        return min(degrees for _, degrees in runs)
+    return max(1, math.floor(sum(variance for variance, _ in runs) ** 2 / spread * (1 + 1e-9)))
 
 
 def with_error(value: float, half_width: float) -> str:

@@ -57,9 +57,10 @@ def fit(mesh: str | os.PathLike[str], path: str | os.PathLike[str], *, degree: i
         raise InputError(f"degree: {degree} is not allowed. Allowed: from 0 to {_stilb.most_degree}.")
     if not 0 <= tolerance < 1:
         raise InputError(f"tolerance: {tolerance} is not allowed. Allowed: a share of the directions below 1.")
-    x, y, z = center if center is not None else (None, None, None)
-    wanted = None if x is None or y is None or z is None else (float(x), float(y), float(z))
-    made = _stilb.fit_mesh(Path(mesh), Path(path), degree, wanted, tolerance, force)
+    if center is not None and np.shape(center) != (3,):
+        raise InputError(f"center: {center!r} is not allowed. Allowed: a position (x, y, z).")
+    x, y, z = map(float, center if center is not None else (0, 0, 0))
+    made = _stilb.fit_mesh(Path(mesh), Path(path), degree, None if center is None else (x, y, z), tolerance, force)
     for share, text in [(made.folded_share, "the outermost of several surfaces is taken"),
                         (made.missed_share, "there is no surface: the holes are closed by interpolation")]:
         if share > 0:

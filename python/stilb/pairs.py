@@ -8,15 +8,21 @@ import numpy as np
 
 from . import _stilb
 from ._stilb import InputError
-from .estimates import Estimate, Numbers, combined
+from ._wrong import wrong_type
+from .estimates import Errors, Estimate, Interval, Numbers, combined
 from .results import Reading, Result
 from .shares import BySensor
+from .values import Values
 
-__all__ = ["Pair", "PairedReading", "paired"]
+__all__ = ["Pair", "PairedReading", "difference", "paired"]
 
 
-class PairedReading:
-    """The readings of a sensor in one run minus those in another, replicate by replicate."""
+class PairedReading(Values):
+    """The readings of a sensor in one run minus those in another, replicate by replicate.
+
+    Intervals are Student's t over the differences of the replicates, as those of `stilb measure --vary`. What intervals of
+    readings have beyond this, for rare light and for patches, concerns both runs alike, and is left out.
+    """
 
     def __init__(self, after: Reading, before: Reading) -> None:
         self._after = after
@@ -48,18 +54,13 @@ class PairedReading:
         replicates = self.replicates
         return np.asarray(replicates.std(0, ddof=1) / np.sqrt(len(replicates)))
 
-    def interval(self) -> tuple[Numbers, Numbers]:
-        """Lower and upper ends of the 95 % intervals of the differences.
-
-        What the intervals of the readings have beyond Student's t, for rare light and for patches, is added to the side to
-        which it moves the difference.
-        """
+    @property
+    def interval(self) -> Interval[Numbers]:
+        """Lower and upper ends of the 95 % intervals of the differences: `low, high = reading.interval`."""
+        degrees = len(self.replicates) - 1
         confidence = max(self._after._key.confidence, self._before._key.confidence)
-        t = _stilb.statistics.student_t_quantile((1 + confidence) / 2, len(self.replicates) - 1)
-        own = t * self.standard_error
-        (above_after, below_after), (above_before, below_before) = (
-            _margins(reading, t) for reading in (self._after, self._before))
-        return (self.value - own - below_after - above_before, self.value + own + above_after + below_before)
+        half_width = _stilb.statistics.student_t_quantile((1 + confidence) / 2, degrees) * self.standard_error
+        return Interval.of(self.value - half_width, self.value + half_width, self.value, lambda: degrees)
 
     @cached_property
     def mean(self) -> Estimate:
@@ -87,11 +88,7 @@ class PairedReading:
         return self._difference("diversity")
 
     def _difference(self, statistic: str) -> Estimate:
-        after: Estimate = getattr(self._after, statistic)
-        before: Estimate = getattr(self._before, statistic)
-        (residuals,) = before._errors.residuals.values()
-        in_same_run = before._errors._replace(residuals={self._after._key: residuals})
-        return combined(after.value - before.value, after.unit, [(after._errors, 1.0), (in_same_run, -1.0)])
+        return difference(self._after, self._before, statistic)
 
     def __repr__(self) -> str:
         return f"<{self.name}: difference of the means {self.mean}>"
@@ -107,6 +104,14 @@ class Pair(BySensor[PairedReading]):
         return "\n".join(f"{name}: {reading.mean}" for name, reading in self.items())
 
 
+def difference(after: Reading, before: Reading, statistic: str) -> Estimate:
+    """Of a statistic, replicate by replicate."""
+    a, b = (getattr(reading, statistic) for reading in (after, before))
+    (own,), (other,) = (estimate._errors.residuals.values() for estimate in (a, b))
+    key = after._key._replace(confidence=max(after._key.confidence, before._key.confidence))
+    return combined(a.value - b.value, a.unit, [(Errors({key: own - other}, {}), 1.0)])
+
+
 def paired(after: Result, before: Result) -> Pair:
     """The differences of two runs, `after` minus `before`, replicate by replicate.
 
@@ -114,9 +119,10 @@ def paired(after: Result, before: Result) -> Pair:
     similar: the differences are then known much better than the values, best by method="path". The scenes may differ in
     anything but the sensors that are compared.
     """
-    if after.seed != before.seed:
-        raise InputError(f"the runs have the seeds {after.seed} and {before.seed}, so that their errors are independent: "
-                         "subtract their estimates, or give both runs the same seed.")
+    for name, result in (("after", after), ("before", before)):
+        if not isinstance(result, Result):
+            raise wrong_type(name, result, 'results of scene.measure(), as in stilb.paired(after, before)["desk"]')
+    _require_same_seeds(after.seeds, before.seeds)
     if after.replicates != before.replicates:
         raise InputError(f"the runs have {after.replicates} and {before.replicates} replicates, which do not belong together. "
                          "Measure the same sensors in both, without a time limit.")
@@ -128,8 +134,12 @@ def paired(after: Result, before: Result) -> Pair:
     return Pair({name: PairedReading(after[name], before[name]) for name in common})
 
 
-def _margins(reading: Reading, t: float) -> tuple[Numbers, Numbers]:
-    """What the intervals have beyond Student's t, above and below."""
-    low, high = reading.interval()
-    width = t * reading.standard_error
-    return np.maximum(0, high - reading.value - width), np.maximum(0, reading.value - low - width)
+def _require_same_seeds(after: tuple[int, ...], before: tuple[int, ...]) -> None:
+    if {*after} == {*before}:
+        return
+    one, other = (str(*seeds) if len(seeds) == 1 else str(seeds) for seeds in (after, before))
+    if {*after} & {*before}:
+        raise InputError(f"the runs have the seeds {one} and {other}, so that their errors are partly the same. Merge runs with "
+                         "the same seeds for both.")
+    raise InputError(f"the runs have the seeds {one} and {other}, so that their errors are independent: subtract their "
+                     "estimates, or give both runs the same seed.")

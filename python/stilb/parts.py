@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import copy
 import inspect
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -18,6 +18,7 @@ from . import _stilb
 from ._meanings import docstring
 from ._names import class_name
 from ._stilb import InputError
+from ._wrong import wrong_type
 
 __all__ = ["Light", "Material", "Object", "Part", "Sensor"]
 
@@ -123,7 +124,7 @@ def _kept(value: Any) -> Any:
     if isinstance(value, np.ndarray):
         value = value.copy()
         value.setflags(write=False)
-    if isinstance(value, list | tuple):
+    if isinstance(value, Sequence | Iterator) and not isinstance(value, str | bytes | bytearray):
         return tuple(_kept(element) for element in value)
     return value
 
@@ -213,8 +214,7 @@ def part_of(section: str, value: Any, name: str) -> Part:
         return value
     if not isinstance(value, Mapping):
         allowed = ", ".join(kind.__name__ for (of, _), kind in CLASSES.items() if of == section)
-        raise InputError(f"{section}.{name}: found a value of type {type(value).__name__}. Allowed: {allowed}, or a "
-                         "dictionary with the keys of a scene file.")
+        raise wrong_type(f"{section}.{name}", value, f"{allowed}, or a dictionary with the keys of a scene file")
     keys = dict(value)
     base = BASES[section]
     kind = CLASSES.get((section, keys.pop(base.type_key, "")))

@@ -9,6 +9,7 @@ from typing import Any, TypeVar
 
 from . import _stilb
 from ._stilb import Progress as ProgressReport
+from ._wrong import wrong_type
 
 Sink = Callable[[ProgressReport], Any]
 Progress = bool | Sink | None
@@ -39,12 +40,18 @@ class _Line:
             print(file=sys.stderr, flush=True)
 
 
+def require_progress(progress: object) -> None:
+    if not (progress is None or callable(progress) or isinstance(progress, bool)):
+        raise wrong_type("progress", progress, "True, or a function that gets a stilb.Progress")
+
+
 def called(progress: Progress, run: Callable[[Sink | None], Raw], wrap: Callable[[Raw], Made]) -> Made:
     """What `wrap` makes of the result of a run.
 
     Where Ctrl-C or the function of progress ends the run by an exception, this has an attribute `result`: the result so far,
     or None.
     """
+    require_progress(progress)
     line = _Line() if progress is True else None
     try:
         return wrap(run(line or (None if isinstance(progress, bool) else progress)))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import tempfile
 import uuid
 import warnings
@@ -13,12 +14,14 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from numpy.typing import DTypeLike, NDArray
+from numpy.typing import NDArray
 
 from . import _stilb, program
 from ._stilb import InputError
-from .estimates import Errors, Estimate, Numbers, ResultWarning, RunKey
+from ._wrong import names_of, wrong_type
+from .estimates import Errors, Estimate, Interval, Numbers, ResultWarning, RunKey
 from .shares import ByName, Readings
+from .values import Values
 
 if TYPE_CHECKING:
     import matplotlib.axes
@@ -29,14 +32,19 @@ if TYPE_CHECKING:
 
 __all__ = ["Image", "Reading", "Result", "Run"]
 
+WITHOUT_PATCHES = ("path", "light-paths", "guided", "local", "double-local")  # techniques
+OF_OTHER_NUMBERS = ("derived", "ugr", "dgp")  # types of sensors whose values are no means of light
+
 
 class Run:
     """The common part of all results."""
 
     _samples = "paths"
 
-    def __init__(self, run: _stilb.Summary) -> None:
+    def __init__(self, run: _stilb.Summary, seeds: tuple[int, ...] = ()) -> None:
+        """`seeds`: where they are several."""
         self._run = run
+        self._seeds = seeds or (run.seed,)
 
     @property
     def method(self) -> str:
@@ -51,8 +59,13 @@ class Run:
 
     @property
     def seed(self) -> int:
-        """The seed of the random numbers."""
-        return self._run.seed
+        """The seed of the random numbers; of several the first one."""
+        return self._seeds[0]
+
+    @property
+    def seeds(self) -> tuple[int, ...]:
+        """All seeds of the random numbers: several after `stilb.merge`."""
+        return self._seeds
 
     @property
     def paths(self) -> int:
@@ -118,10 +131,23 @@ class Run:
         return f"The run ended before its goal: {self.stopped}."
 
 
-def bands(factor: float | Sequence[float]) -> tuple[float, float, float]:
-    """A factor, or one each for red, green and blue."""
-    red, green, blue = factor if isinstance(factor, Sequence) else (factor, factor, factor)
-    return (float(red), float(green), float(blue))
+def factors_of(lights: Mapping[str, float | Sequence[float]]) -> dict[str, tuple[float, float, float]]:
+    """The factors of lights: a number for each, or one each for red, green and blue."""
+    if not isinstance(lights, Mapping):
+        raise wrong_type("lights", lights, 'factors by the names of lights, such as {"panel": 0.4}')
+    return {name: _bands(name, factor) for name, factor in lights.items()}
+
+
+def _bands(light: str, factor: float | Sequence[float]) -> tuple[float, float, float]:
+    try:
+        numbers = np.asarray(factor)
+    except ValueError:  # a list of lists
+        numbers = np.array("")
+    if numbers.dtype.kind not in "biuf" or numbers.shape not in ((), (3,)):
+        raise InputError(f"lights.{light}: {factor!r} is not allowed. Allowed: a factor of 0 or more, such as 0.5, or three of "
+                         "them for red, green and blue.")
+    red, green, blue = np.broadcast_to(numbers, 3).tolist()
+    return float(red), float(green), float(blue)
 
 
 def warn_of(run: Run, level: int = 4) -> None:
@@ -130,7 +156,7 @@ def warn_of(run: Run, level: int = 4) -> None:
         warnings.warn(text, ResultWarning, stacklevel=level)
 
 
-class Reading:
+class Reading(Values):
     """The readings of one sensor.
 
     The arrays have the shape (nv, nu) for grids, row by row along edge_v; (n,) for points, lines of sight and others;
@@ -177,7 +203,7 @@ class Reading:
     @property
     def run(self) -> Run:
         """The run that these readings come from: its method, effort and warnings."""
-        return Run(self._run)
+        return Run(self._run, self._key.seeds)
 
     @property
     def value(self) -> Numbers:
@@ -214,17 +240,16 @@ class Reading:
         """Normals of surface elements, axes of bodies, or viewing directions, (..., 3)."""
         return self._shaped(self._sensor.direction)
 
-    def interval(self, confidence: float = 0.95) -> tuple[Numbers, Numbers]:
-        """Lower and upper ends of the intervals that contain the true values with this probability.
+    @property
+    def interval(self) -> Interval[Numbers]:
+        """Lower and upper ends of the intervals that contain the true values with a probability of 95 %:
+        `low, high = desk.interval`, and `desk.interval(0.99)` for another one.
 
         Those of 95 % are the engine's, with what it adds for rare light and for patches (docs/statistics.md). Others are
         wider or narrower than these by the ratio of Student's t.
         """
         low, high = self._shaped(self._sensor.lower), self._shaped(self._sensor.upper)
-        if confidence == 0.95:
-            return low, high
-        factor = self._width_factor(confidence)
-        return self.value - factor * (self.value - low), self.value + factor * (high - self.value)
+        return Interval.of(low, high, self.value, lambda: self._run.replicates - 1)
 
     @cached_property
     def mean(self) -> Estimate:
@@ -291,15 +316,6 @@ class Reading:
         """The number of readings."""
         return self._sensor.value.size
 
-    def __len__(self) -> int:
-        return len(self.value)
-
-    def __getitem__(self, index: Any) -> Any:
-        return self.value[index]
-
-    def __array__(self, dtype: DTypeLike | None = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.value, dtype) if copy else np.asarray(self.value, dtype)
-
     def __repr__(self) -> str:
         return f"<{self.name}: {self._text()}; {self.run._convergence()}>"
 
@@ -314,8 +330,10 @@ class Reading:
     def _statistic(self, name: str, unit: str) -> Estimate:
         sensor, key, full_name = self._sensor, self._key, f"{self._of}{self.name}.{name}"
         estimate: _stilb.Estimate = getattr(sensor, name)
+        is_rare = name == "mean" and self._run.technique in WITHOUT_PATCHES and sensor.type not in OF_OTHER_NUMBERS
         return Estimate(estimate.value, estimate.standard_error, (estimate.lower, estimate.upper), unit,
-                        lambda: Errors.of_statistic(estimate, key, full_name, np.array(sensor.residuals(name))))
+                        lambda: Errors.of_statistic(estimate, key, full_name, np.array(sensor.residuals(name)),
+                                                    has_rare_light_alone=is_rare))
 
     def _is_grid(self) -> bool:
         return self._sensor.count[1] > 0
@@ -324,31 +342,23 @@ class Reading:
         """A view of the array in the shape of the readings."""
         return array.reshape(self._shape + array.shape[1:])
 
-    def _width_factor(self, confidence: float) -> float:
-        if not 0 < confidence < 1:
-            raise _stilb.InputError(f"confidence {confidence}: expected a probability between 0 and 1, such as 0.95.")
-        if self._run.replicates < 2:
-            return float("nan")
-
-        def half_width(probability: float) -> float:
-            return _stilb.statistics.student_t_quantile((1 + probability) / 2, self._run.replicates - 1)
-
-        return half_width(confidence) / half_width(0.95)
-
 
 class Result(Run, Mapping[str, Reading]):
     """The readings of all sensors: `result["desk"]`, in the order of the scene."""
 
-    def __init__(self, result: _stilb.Result, token: str | None = None, sums: Sums | None = None) -> None:
-        """`token`: of the same result, where it is made again. `sums`: what it was made of, where that is kept."""
-        super().__init__(result.summary())
+    def __init__(self, result: _stilb.Result, token: str | None = None, sums: Sums | None = None,
+                 seeds: tuple[int, ...] = (), is_dimmed: bool = False) -> None:
+        """`token`: of the same result, where it is made again. `sums`: what it was made of, where that is kept. `seeds`:
+        where they are several."""
+        super().__init__(result.summary(), seeds)
         self._result = result
         self._sums = sums
-        self._key = RunKey(token or uuid.uuid4().hex, result.seed, result.confidence)
+        self._is_dimmed = is_dimmed
+        self._key = RunKey(token or uuid.uuid4().hex, self.seeds, result.confidence)
         self._readings = {sensor.name: Reading(sensor, self._run, self._key) for sensor in result.sensors}
 
     def __reduce__(self) -> tuple[Callable[..., Result], tuple[Any, ...]]:
-        return Result, (self._result, self._key.token, self._sums)
+        return Result, (self._result, self._key.token, self._sums, self._seeds, self._is_dimmed)
 
     def __getitem__(self, sensor: str) -> Reading:
         if sensor not in self._readings:
@@ -380,15 +390,20 @@ class Result(Run, Mapping[str, Reading]):
                        for lit in self._result.light_scenes},
                       'the scene had no light scenes: scene.light_scenes["evening"] = {"panel": 0.2} adds one')
 
-    def dimmed(self, **lights: float | Sequence[float]) -> Result:
-        """The result with the lamps so, from the same samples: `result.dimmed(panel=0.4, corridor=0)`. A factor for a light or
-        a group of lights, or three of them for red, green and blue.
+    def dimmed(self, lights: Mapping[str, float | Sequence[float]] | None = None, /,
+               **named: float | Sequence[float]) -> Result:
+        """The result with the lamps so, from the same samples: `result.dimmed(panel=0.4, corridor=0)`, or
+        `result.dimmed({"panel": 0.4})`. A factor for a light or a group of lights, or three of them for red, green and blue.
 
         The run must have kept the lights apart: scene.measure(by="light"), or a light scene that tells them apart.
         """
+        factors = factors_of({} if lights is None else lights) | factors_of(named)
+        if self._is_dimmed:
+            raise InputError("this result is a dimmed one already. Dim the one that it was made from, with the factors of all "
+                             "lights at once.")
         if self._sums is None:
             raise InputError('this result has not kept the lights apart: scene.measure(by="light") does.')
-        result = self._sums.result({name: bands(factor) for name, factor in lights.items()})
+        result = self._sums.result(factors)
         warn_of(result, 3)
         return result
 
@@ -404,8 +419,12 @@ class Result(Run, Mapping[str, Reading]):
         return np.asarray(a.T @ b / (len(a) * (len(a) - 1)))
 
     def to_json(self) -> str:
-        """The document of `stilb measure --json` (docs/json.md)."""
-        return self._result.json()
+        """The document of `stilb measure --json` (docs/json.md). Of several seeds it has `seeds`, too."""
+        text = self._result.json()
+        if len(self.seeds) == 1:
+            return text
+        # The library's document has the first one alone. A key within a text has backslashes before its quotation marks.
+        return re.sub(r'(?<!\\)"seed": *\d+', lambda found: f'{found[0]}, "seeds": {list(self.seeds)}', text, count=1)
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each reading of all sensors: those of `Reading.to_pandas()`, with the sensor's name and
@@ -430,7 +449,7 @@ class Result(Run, Mapping[str, Reading]):
         with tempfile.TemporaryDirectory() as folder:
             file = Path(folder) / "result.json"
             file.write_text(self.to_json(), encoding="utf-8")
-            names = [self[name].name for name in sensors or []]
+            names = [self[name].name for name in names_of("sensors", sensors or [], self)]
             program.run("falsecolor", file, output=program.absolute(path), sensor=names, log=log, min=minimum, max=maximum,
                         isolines=isolines, numbers=numbers, errors=errors)
 

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import copy
 import os
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING, Unpack, cast
 
 from . import _stilb
 from ._stilb import Cancelled, InputError
+from ._wrong import wrong_type
 from .options import Limits, options
 from .progress import Progress, Sink, called
 from .results import Result, warn_of
@@ -43,7 +44,7 @@ class ResumableRun:
     @property
     def seeds(self) -> list[int]:
         """The seeds whose samples are among them: several after `stilb.merge`."""
-        return self._sums.state.seeds() if self._sums.state.has_begun() else [self._sums.options().seed]
+        return list(self._sums.seeds())
 
     @property
     def result(self) -> Result | None:
@@ -80,7 +81,7 @@ class ResumableRun:
             kept = {key: value for key, value in self._sums.limits.items() if key not in LIMITS}
             self._sums.limits = cast(Limits, kept)
         given = cast(Limits, {**self._sums.limits, **limits})
-        options(self._sums.scene._scene(), given)  # for its messages
+        options(self._sums.built(), given)  # for its messages
         self._sums.limits = given
         result = self._run_on(progress or self._progress)
         warn_of(result, 3)
@@ -123,7 +124,7 @@ class ResumableRun:
             return sink and (lambda report: self._noted(sink(report)))
 
         self._result = called(
-            progress, lambda sink: _stilb.measure_state(own.scene._scene(), chosen, own.sensors, own.state, to_next_check,
+            progress, lambda sink: _stilb.measure_state(own.built(), chosen, own.sensors, own.state, to_next_check,
                                                         watched(sink)), own.wrapped)
         return self._result
 
@@ -151,6 +152,8 @@ def merge(runs: Iterable[ResumableRun | Result | str | os.PathLike[str]]) -> Res
 
     Scene, sensors, options and technique must be the same. The same part or seed twice is refused.
     """
+    if isinstance(runs, str | os.PathLike | Mapping | ResumableRun) or not isinstance(runs, Iterable):
+        raise wrong_type("runs", runs, 'a list of runs and names of state files, such as stilb.merge([run, "b.run"])')
     named = [_sums_of(run, number) for number, run in enumerate(runs, 1)]
     if not named:
         raise InputError("there is nothing to merge: the list is empty.")
@@ -165,6 +168,8 @@ def merge(runs: Iterable[ResumableRun | Result | str | os.PathLike[str]]) -> Res
     (first_name, merged), *others = by_seed.values()
     for other in others:
         _together((first_name, merged), other)
+    if not merged.state.samples():
+        raise InputError("there is nothing to merge: the runs have no samples.")
     return ResumableRun(merged)
 
 
@@ -180,21 +185,31 @@ def _together(merged: tuple[str, Sums], other: tuple[str, Sums]) -> None:
 
 def _sums_of(run: ResumableRun | Result | str | os.PathLike[str], number: int) -> tuple[str, Sums]:
     """With its name, for messages."""
-    if isinstance(run, ResumableRun):
-        return f"run {number}", run._sums
-    if not isinstance(run, Result):
+    if isinstance(run, Result):
+        return f"result {number}", _kept_sums(run, number)
+    if isinstance(run, str | os.PathLike):
         return str(run), resume(run)._sums
-    if run._sums is None:
+    if not isinstance(run, ResumableRun):
+        raise wrong_type(f"run {number}", run, "runs, names of state files, and results that can be dimmed")
+    if not run._sums.state.has_begun():
+        raise InputError(f"run {number} has not begun, and has nothing to merge. Make its samples first: run.finish().")
+    return f"run {number}", run._sums
+
+
+def _kept_sums(result: Result, number: int) -> Sums:
+    if result._is_dimmed:
+        raise InputError(f"result {number} is a dimmed one. Merge the results that were dimmed, and dim what is merged.")
+    if result._sums is None:
         raise InputError(f"result {number} has not kept its sums, which merging takes. Keep the run: run = scene.start(...), "
                          "run.finish(), and merge the runs.")
-    return f"result {number}", run._sums
+    return result._sums
 
 
 def _in_form_of(first: Sums, other: Sums) -> Sums:
     """The same run, also where only one of the two scenes is that of a file, as after pickling."""
     from .state_files import text_of
 
-    is_file = [bool(sums.scene._scene().path().name) for sums in (first, other)]
+    is_file = [bool(sums.built().path().name) for sums in (first, other)]
     if is_file[0] == is_file[1] or text_of(first.scene) != text_of(other.scene):
         return other
     return other.adopted_by(first.scene)

@@ -16,12 +16,14 @@ from numpy.typing import ArrayLike
 
 from . import _stilb, program
 from ._stilb import InputError
+from ._wrong import names_of, wrong_type
 from .estimates import ResultWarning
 from .options import DESCRIPTION, Limits, SightLimits, options
 from .parts import Mesh, Part, part_of
-from .progress import Progress, called
+from .progress import Progress, called, require_progress
 from .results import Image, Reading, Result, Run, warn_of
 from .runs import ResumableRun
+from .scene_files import ReadFile, replace
 from .solution import Solution
 from .sums import Sums
 from .toml import document_text, value_text
@@ -29,6 +31,8 @@ from .toml import document_text, value_text
 __all__ = ["Scene", "Section", "load"]
 
 SECTIONS = ("materials", "objects", "lights", "sensors")
+TABLES = ("run", "defaults", "light_scenes")  # sections without parts
+
 
 class ImportSettings(TypedDict, total=False):
     """How a scene of another program is read: `help(stilb.load)`."""
@@ -57,7 +61,15 @@ class Section(MutableMapping[str, Part]):
         return self._parts[name]
 
     def __setitem__(self, name: str, part: Part | Mapping[str, Any]) -> None:
+        if not isinstance(name, str):
+            raise wrong_type(f"{self._section}: the name of a part", name, "a text")
         self._parts[name] = part_of(self._section, part, name)
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if not name.startswith("_"):
+            raise InputError(f"{self._section} have no attribute {name}: parts have keys. Allowed: "
+                             f'scene.{self._section}["{name}"] = ...')
+        super().__setattr__(name, value)
 
     def __delitem__(self, name: str) -> None:
         self[name]
@@ -109,13 +121,25 @@ class Scene:
         self.run: dict[str, Any] = {}
         self.defaults: dict[str, Any] = {}
         self.light_scenes: dict[str, dict[str, Any]] = {}  # states of the lamps: {"evening": {"panel": 0.2, "others": 0}}
-        self._path: Path | None = None
+        self._file: ReadFile | None = None
         self._directory = Path(".")
         self._sections = {section: Section(section) for section in SECTIONS}
         self._settings: list[str] = []  # with which the file was read
         self._base: _stilb.Scene | None = None  # a file of another format
         self._built: _stilb.Scene | None = None
         self._built_state: Any = None
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == "name" and not isinstance(value, str):
+            raise wrong_type("name", value, "a text")
+        if name in TABLES:
+            value = _table(name, value)
+        elif name in SECTIONS:
+            raise InputError(f"{name}: a scene keeps its {name}. Allowed: scene.{name}[...] = ..., scene.{name}.update(...), "
+                             f"scene.{name}.clear().")
+        elif name != "name" and not name.startswith("_"):
+            raise InputError(_unknown_attribute(name))
+        super().__setattr__(name, value)
 
     @classmethod
     def load(cls, path: str | os.PathLike[str], *, set: Mapping[str, Any] | None = None, progress: Progress = None,
@@ -132,14 +156,20 @@ class Scene:
         set          other values for keys, as --set of the command line: {"materials.wall.reflectance": 0.5}
         progress     as in runs: help(stilb.Scene)
         """
-        chosen = {f"import.{key}": value for key, value in settings.items()} | dict(set or {})
-        texts = [f"{key}={value_text(value)}" for key, value in chosen.items()]
+        if unknown := settings.keys() - ImportSettings.__annotations__:
+            allowed = ", ".join(["set", "progress", *ImportSettings.__annotations__])
+            raise TypeError(f"unknown argument {min(unknown)}; allowed: {allowed}")
+        values = _table("set", {} if set is None else set)
+        chosen = {f"import.{key}": value for key, value in settings.items()} | values
+        texts = [f"{key}={value_text(value, key)}" for key, value in chosen.items()]
         return called(progress, lambda sink: _stilb.Scene.load(Path(path), texts, sink),
-                      lambda read: cls._of_file(read, texts, set or {}))
+                      lambda read: cls._of_file(read, texts, values))
 
     @classmethod
     def parse(cls, text: str, directory: str | os.PathLike[str] = ".") -> Scene:
         """Reads a scene from the text of a scene file. Names of files in it are relative to `directory`."""
+        if not isinstance(text, str):
+            raise wrong_type("text", text, "the text of a scene file; stilb.load(path) reads a file")
         built = _stilb.Scene.parse(text, Path(directory))
         scene = cls.from_dict(tomllib.loads(text), directory)
         scene._keep(built)
@@ -149,11 +179,13 @@ class Scene:
     def from_dict(cls, document: Mapping[str, Any], directory: str | os.PathLike[str] = ".") -> Scene:
         """The scene of a document such as `to_dict` returns, and as scene files have. Its parts are checked when the scene
         is used. Names of files are relative to `directory`."""
-        for section, content in document.items():
+        for section, content in _table("document", document).items():
             _require_section(section)
-            if not isinstance(content, Mapping):
-                raise InputError(f"{section}: found a value of type {type(content).__name__}. Allowed: a dictionary.")
-        scene = cls(document.get("scene", {}).get("name", ""))
+            _table(section, content)
+        title = document.get("scene", {})
+        if unknown := {*title} - {"name"}:
+            raise InputError(f'scene: unknown key "{min(unknown, key=str)}". Allowed: name.')
+        scene = cls(title.get("name", ""))
         scene._directory = Path(directory)
         scene.run = copy.deepcopy(dict(document.get("run", {})))
         scene.defaults = copy.deepcopy(dict(document.get("defaults", {})))
@@ -163,19 +195,24 @@ class Scene:
 
     @classmethod
     def _of_file(cls, read: _stilb.Scene, settings: list[str], set: Mapping[str, Any]) -> Scene:
-        path = Path(read.path())
-        document = _toml_document(path)
-        scene = cls(read.name()) if document is None else cls.from_dict(document, path.parent)
-        scene._path = path
-        scene._directory = path.parent
+        file = ReadFile(Path(read.path()))
+        folder = file.path.parent.absolute()
+        scene = cls(read.name()) if file.document is None else cls.from_dict(file.document, folder)
+        scene._file = file
+        scene._directory = folder
         scene._settings = settings
-        if document is None:
+        if file.document is None:
             scene._base = read
         else:
             for key, value in set.items():
                 scene.set(key, value)
         scene._keep(read)
         return scene
+
+    @property
+    def _path(self) -> Path | None:
+        """The scene's own file."""
+        return self._file.path if self._file else None
 
     def set(self, key: str, value: Any) -> None:
         """Sets a key by its full name, as --set of the command line does: `scene.set("materials.wall.reflectance", 0.5)`.
@@ -187,24 +224,29 @@ class Scene:
         if first == "scene" and names == ["name"]:
             self.name = value
         elif first in ("run", "defaults") and names:
-            setattr(self, first, _with(getattr(self, first), names, value))
+            setattr(self, first, _with(getattr(self, first), names, value, first))
         elif first == "scenes" and names:
-            self.light_scenes = _with(self.light_scenes, names, value)
+            self.light_scenes = _with(self.light_scenes, names, value, first)
         elif first in SECTIONS and len(names) == 1:
             self._sections[first][names[0]] = value
         elif first in SECTIONS and names:
-            name, attribute, *inner = names
-            if name not in self._sections[first]:
-                known = list(self._sections[first])
-                raise InputError(f'{key}: there is no "{name}" in {first}.{_stilb.did_you_mean(name, known)} Allowed: '
-                                 f"{', '.join(known) or 'none'}.")
-            part = self._sections[first][name]
-            try:
-                setattr(part, attribute, _with(getattr(part, attribute, {}), inner, value) if inner else value)
-            except InputError as error:
-                raise InputError(f"{key}: {error}") from None
+            self._set_of_part(key, first, *names, value=value)
         else:
             raise InputError(f"{key}: there is no such key. Allowed: names such as materials.wall.reflectance.")
+
+    def _set_of_part(self, key: str, section: str, name: str, attribute: str, *inner: str, value: Any) -> None:
+        if name not in self._sections[section]:
+            known = list(self._sections[section])
+            raise InputError(f'{key}: there is no "{name}" in {section}.{_stilb.did_you_mean(name, known)} Allowed: '
+                             f"{', '.join(known) or 'none'}.")
+        part = self._sections[section][name]
+        if inner:
+            before = {attribute: part.to_dict()[attribute]} if attribute in part.to_dict() else {}
+            value = _with(before, [attribute, *inner], value, f"{section}.{name}")[attribute]
+        try:
+            setattr(part, attribute, value)
+        except InputError as error:
+            raise InputError(f"{key}: {error}") from None
 
     def __copy__(self) -> Scene:
         """A scene with parts of its own."""
@@ -226,11 +268,14 @@ class Scene:
         """What other processes, and other working directories, can make the scene of."""
         own = {"_base": self._base is not None, "_built": None, "_built_state": None,
                "_directory": self._directory.absolute()}
-        return {**self.__dict__, **own, "_path": self._path and self._path.absolute()}
+        return {**self.__dict__, **own, "_file": self._file and self._file.absolute()}
 
     def __setstate__(self, state: dict[str, Any]) -> None:
         self.__dict__.update(state)
-        self._base = _stilb.Scene.load(state["_path"], state["_settings"], None) if state["_base"] else None
+        self._base = None
+        if state["_base"]:
+            self._require_file()
+            self._base = _stilb.Scene.load(state["_file"].path, state["_settings"], None)
 
     @property
     def materials(self) -> Section:
@@ -272,13 +317,17 @@ class Scene:
                 print(partial["desk"].mean)
                 run.save("hall.run")
         """
-        options(self._scene(), limits)  # for its messages
-        return ResumableRun(Sums(copy.copy(self), self._names(sensors), limits), progress)
+        require_progress(progress)
+        scene, names = self._scene(), self._names(sensors)
+        _stilb.RunState().adopt(scene, options(scene, limits), names)  # for its messages
+        return ResumableRun(Sums(copy.copy(self), names, limits), progress)
 
     def _names(self, sensors: Iterable[str] | None) -> list[str]:
         """Of the sensors that are chosen; none for all."""
-        names = [] if sensors is None else [sensors] if isinstance(sensors, str) else list(sensors)
-        if sensors is not None and not names:
+        if sensors is None:
+            return []
+        names = names_of("sensors", sensors, self._scene().sensors())
+        if not names:
             raise InputError(f"sensors: the list is empty. Allowed: names of sensors ({', '.join(self._scene().sensors())}); "
                              "None for all.")
         return names
@@ -289,15 +338,19 @@ class Scene:
         `points` (..., 3) are positions [m], `normals` (..., 3) or (3,) the directions that the elements face, of any
         length. The values have the shape of the points.
         """
-        return self._along(_stilb.illuminance, points, normals, progress, limits)
+        rays = _rays("points", points, "normals", normals)
+        return self._along(_stilb.illuminance, *rays, progress, limits)
 
     def luminance(self, positions: ArrayLike, directions: ArrayLike, *, progress: Progress = None,
                   **limits: Unpack[SightLimits]) -> Reading:
         """The luminance [cd/m2] that is seen from `positions` along `directions`, of shapes (..., 3) or (3,)."""
-        return self._along(_stilb.luminance, positions, directions, progress, limits)
+        rays = _rays("positions", positions, "directions", directions)
+        return self._along(_stilb.luminance, *rays, progress, limits)
 
     def render(self, camera: str = "", *, progress: Progress = None, **limits: Unpack[Limits]) -> Image:
         """A luminance picture; the camera's name may be left out where the scene has one only."""
+        if not isinstance(camera, str):
+            raise wrong_type("camera", camera, "the name of a camera")
         scene = self._scene()
         chosen = options(scene, limits)
         return _warned(called(progress, lambda sink: _stilb.render(scene, camera, chosen, sink), Image))
@@ -337,7 +390,8 @@ class Scene:
                 file, settings = self._path, self._settings
             else:
                 copy.copy(self).save(file)
-            program.run("report", file, output=program.absolute(path), set=settings, sensor=list(sensors or []),
+            program.run("report", file, output=program.absolute(path), set=settings,
+                        sensor=names_of("sensors", sensors or [], self._scene().sensors()),
                         readings=readings, view_time=view_time, view_passes=view_passes, quiet=True, **limits)
 
     def to_dict(self) -> dict[str, Any]:
@@ -356,12 +410,14 @@ class Scene:
         return document | ({"scenes": self.light_scenes} if self.light_scenes else {})
 
     def save(self, path: str | os.PathLike[str]) -> None:
-        """Writes a scene file (TOML), which is the scene's own from now on."""
+        """Writes a scene file (TOML), which is the scene's own from now on. A scene with mistakes is not written."""
         file = Path(path)
         document = _relocated(self.to_dict(), lambda name: _moved(name, self._directory, file.parent))
-        file.write_text(document_text(document), encoding="utf-8")
-        loaded = Scene.load(file)
-        self.__dict__.update(loaded.__dict__)
+        text = document_text(document)
+        self._scene()  # for its messages, which name the part
+        _stilb.Scene.parse(text, file.parent)  # as it will be read, with the files that it names
+        replace(file, text)
+        self.__dict__.update(Scene.load(file).__dict__)
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{len(parts)} {section}" for section, parts in self._sections.items())
@@ -379,12 +435,26 @@ class Scene:
     def _scene(self) -> _stilb.Scene:
         """The scene in C++: that of the file, or a new one where something was changed."""
         state = self._state()
-        if self._built is None or state != self._built_state:
+        if self._built is None or state != self._built_state or self._has_lost_file():
             self._built = self._build()
             self._built_state = state
         return self._built
 
+    def _has_lost_file(self) -> bool:
+        """Whether what is built refers to a file that is not as it was read."""
+        refers = self._base is not None or (self._built is not None and self._built.path().name != "")
+        return refers and self._file is not None and not self._file.is_as_read()
+
+    def _require_file(self) -> None:
+        """Parts of a scene file are kept; those of another format are read again."""
+        if self._file is None or self._file.is_as_read():
+            return
+        raise InputError(f"{self._path}: this file is not there any more, or has changed since it was read, and scenes of other "
+                         "formats than TOML need it as it was. Load it again, or make it a scene file by `stilb import`.")
+
     def _build(self) -> _stilb.Scene:
+        if self._base is not None:
+            self._require_file()
         builder = _stilb.SceneBuilder(self._base or self.name)
         builder.directory(self._directory)
         builder.run(self.run)
@@ -403,13 +473,12 @@ class Scene:
                     add[section](name, keys)
         return builder.build()
 
-    def _along(self, measure: Callable[..., _stilb.Result], positions: ArrayLike, directions: ArrayLike,
+    def _along(self, measure: Callable[..., _stilb.Result], shape: tuple[int, ...], rays: np.ndarray[Any, Any],
                progress: Progress, limits: SightLimits) -> Reading:
-        points, rays = _rays(positions, directions)
         scene = self._scene()
         chosen = options(scene, limits)
         reading = called(progress, lambda sink: measure(scene, rays, chosen, sink),
-                         lambda result: Result(result)._only(points.shape[:-1]))
+                         lambda result: Result(result)._only(shape))
         warn_of(reading.run)
         return reading
 
@@ -445,11 +514,28 @@ def _names(key: str) -> list[str]:
     return names
 
 
-def _with(table: Mapping[str, Any], names: list[str], value: Any) -> dict[str, Any]:
-    """The table with another value for a key in it, or in a table in it."""
+def _with(table: Mapping[str, Any], names: list[str], value: Any, place: str) -> dict[str, Any]:
+    """The table with another value for a key in it, or in a table in it. `place`: its own name, for messages."""
     first, *others = names
-    inner = table.get(first, {})
-    return {**table, first: _with(inner if isinstance(inner, Mapping) else {}, others, value) if others else value}
+    if not others:
+        return {**table, first: value}
+    inner, key = table.get(first, {}), f"{place}.{first}"
+    if not isinstance(inner, Mapping):
+        raise InputError(f"{key}.{'.'.join(others)}: {key} has no keys of its own, as its value is {inner!r}. Set all of it: "
+                         f"{key}.")
+    return {**table, first: _with(inner, others, value, key)}
+
+
+def _table(what: str, value: object) -> dict[str, Any]:
+    if not isinstance(value, Mapping):
+        raise wrong_type(what, value, "a dictionary")
+    return dict(value)
+
+
+def _unknown_attribute(name: str) -> str:
+    known = ["name", *TABLES, *SECTIONS]
+    meant = ' Did you mean "light_scenes"?' if name == "scenes" else _stilb.did_you_mean(name, known)
+    return f'Scene has no attribute "{name}".{meant} Allowed: {", ".join(known)}.'
 
 
 def _require_section(section: str) -> None:
@@ -458,23 +544,27 @@ def _require_section(section: str) -> None:
         raise InputError(f'unknown section "{section}".{_stilb.did_you_mean(section, known)} Allowed: {", ".join(known)}.')
 
 
-def _toml_document(path: Path) -> dict[str, Any] | None:
-    """The content of a scene file; None where the file is of another format."""
+def _rays(name: str, positions: ArrayLike, other_name: str,
+          directions: ArrayLike) -> tuple[tuple[int, ...], np.ndarray[Any, Any]]:
+    """The shape of the readings, and positions and directions side by side as (n, 6)."""
+    points, ways = _triples(name, positions), _triples(other_name, directions)
     try:
-        return tomllib.loads(path.read_text(encoding="utf-8"))
+        points, ways = np.broadcast_arrays(points, ways)
     except ValueError:
-        return None
+        raise InputError(f"{name} of shape {points.shape} and {other_name} of shape {ways.shape} do not fit. Allowed: "
+                         "(..., 3) of both, or (3,) for all.") from None
+    sides = [points.reshape(-1, 3), ways.reshape(-1, 3)]
+    return points.shape[:-1], np.ascontiguousarray(np.concatenate(sides, axis=1))
 
 
-def _rays(positions: ArrayLike, directions: ArrayLike) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
-    """The positions, and both side by side as (n, 6)."""
+def _triples(name: str, values: ArrayLike) -> np.ndarray[Any, Any]:
     try:
-        points, ways = np.broadcast_arrays(np.asarray(positions, np.float64), np.asarray(directions, np.float64))
-    except ValueError as error:
-        raise InputError(f"positions and directions do not fit: {error}. Allowed: (..., 3) and (..., 3) or (3,).") from None
-    if points.ndim == 0 or points.shape[-1] != 3 or points.size == 0:
-        raise InputError(f"found positions of shape {points.shape}. Allowed: (..., 3), one position or more.")
-    return points, np.ascontiguousarray(np.concatenate([points.reshape(-1, 3), ways.reshape(-1, 3)], axis=1))
+        array = np.asarray(values, np.float64)
+    except (TypeError, ValueError):
+        raise wrong_type(name, values, "numbers (x, y, z), as an array of shape (..., 3)") from None
+    if array.ndim == 0 or array.shape[-1] != 3 or array.size == 0:
+        raise InputError(f"{name}: found an array of shape {array.shape}. Allowed: (..., 3), one (x, y, z) or more.")
+    return array
 
 
 def _moved(file: str, old: Path, new: Path) -> str:

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 
 from . import _stilb
 from .progress import Progress, called
-from .results import Image, Run, bands, warn_of
+from .results import Image, Run, factors_of, warn_of
 
 if TYPE_CHECKING:
     from .scene import Scene
@@ -47,7 +47,7 @@ class Solution(Run):
     def render(self, camera: str = "", *, lights: Mapping[str, float | Sequence[float]] | None = None,
                progress: Progress = None) -> Image:
         """A picture from the stored light. `lights`: a factor for each light, or three of them for red, green, blue."""
-        factors = {name: bands(factor) for name, factor in (lights or {}).items()}
+        factors = factors_of({} if lights is None else lights)
         image = called(progress, lambda sink: self._solution.render(camera, factors, sink), Image)
         warn_of(image, 3)
         return image

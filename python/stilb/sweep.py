@@ -5,6 +5,7 @@ from __future__ import annotations
 import builtins
 import copy
 import itertools
+import math
 import warnings
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from concurrent.futures import ProcessPoolExecutor
@@ -12,8 +13,10 @@ from multiprocessing import get_context
 from typing import TYPE_CHECKING, Any, Unpack, cast
 
 from ._stilb import InputError
-from .estimates import Estimate, ResultWarning, combined
+from ._wrong import names_of, require_scene, wrong_type
+from .estimates import Errors, Estimate, ResultWarning
 from .options import Limits, options
+from .pairs import difference
 from .results import Reading, Result
 
 if TYPE_CHECKING:
@@ -24,6 +27,7 @@ if TYPE_CHECKING:
 __all__ = ["sweep"]
 
 STATISTICS = ("mean", "minimum", "maximum", "uniformity", "diversity")
+UNKNOWN = Estimate(math.nan, math.nan, (math.nan, math.nan), "", lambda: Errors({}, {}))
 
 
 def sweep(scene: Scene, variations: Mapping[str, Sequence[Any]], *, zip: bool = False, processes: int = 1,
@@ -33,20 +37,23 @@ def sweep(scene: Scene, variations: Mapping[str, Sequence[Any]], *, zip: bool = 
         table = stilb.sweep(scene, {"materials.wall.reflectance": [0.3, 0.5, 0.7]}, processes=2)
 
     The table is that of `stilb measure --vary` (docs/runs.md): a row for each statistic of each sensor in each variant, with
-    the values of the keys, the value with its interval, and its difference from the first variant. All variants have the same
-    random numbers, so that most of the errors cancel in differences. `limits` are those of the first variant; the others have
-    as many samples. Method "auto" is "path" here, by which differences are known best.
+    the values of the keys, the value with its standard error and interval, and its difference from the first variant. All
+    variants have the same random numbers, so that most of the errors cancel in differences. `limits` are those of the first
+    variant; the others have as many samples. Method "auto" is "path" here, by which differences are known best.
 
     zip        take the first values of all keys together, then the second ones ...
     processes  so many processes share the variants after the first one
+    by         "light" or "bounce": a column `share` names the light or the number of reflections, and each has rows of its own
+               below those of the whole, where `share` is empty
 
     Needs pandas.
     """
     from .tables import needed
 
     pandas = needed("pandas")
+    _require_kinds(scene, variations, processes)
     variants = list(_variants(variations, zip))
-    names = None if sensors is None else [sensors] if isinstance(sensors, str) else list(sensors)
+    names = None if sensors is None else names_of("sensors", sensors, scene.sensors)
     asked: dict[str, Any] = dict(limits)
     scenes = [_variant(scene, variant) for variant in variants]
     if options(scenes[0]._scene(), limits).method == "auto":
@@ -58,6 +65,17 @@ def sweep(scene: Scene, variations: Mapping[str, Sequence[Any]], *, zip: bool = 
     rows = [row for variant, result in builtins.zip(variants, results, strict=True)
             for row in _rows(variant, result, first)]
     return pandas.DataFrame(rows)
+
+
+def _require_kinds(scene: object, variations: object, processes: object) -> None:
+    require_scene(scene)
+    if not isinstance(variations, Mapping):
+        raise wrong_type("variations", variations, 'keys with lists of values, such as {"materials.wall.reflectance": [0.3, 0.5]}')
+    for key, values in variations.items():
+        if isinstance(values, str | bytes | Mapping) or not isinstance(values, Iterable) or getattr(values, "ndim", 1) == 0:
+            raise InputError(f"variations: {key} has the value {values!r}. Allowed: a list of values, such as [{values!r}].")
+    if not isinstance(processes, int) or processes < 1:
+        raise InputError(f"processes: {processes!r} is not allowed. Allowed: a whole number from 1.")
 
 
 def _variants(variations: Mapping[str, Sequence[Any]], zips: bool) -> Iterator[dict[str, Any]]:
@@ -98,15 +116,31 @@ def _all_measured(scenes: list[Scene], sensors: list[str] | None, limits: Mappin
 
 
 def _rows(variant: Mapping[str, Any], result: Result, first: Result) -> Iterator[dict[str, Any]]:
-    for name, reading in result.items():
-        for statistic in _statistics(reading):
-            estimate: Estimate = getattr(reading, statistic)
-            difference = _difference(reading, first[name], statistic)
-            yield {**variant, "sensor": name, "statistic": "value" if reading.size == 1 else statistic, "unit": estimate.unit,
-                   "value": estimate.value, "interval_low": estimate.interval[0], "interval_high": estimate.interval[1],
-                   "difference": difference.value, "difference_low": difference.interval[0],
-                   "difference_high": difference.interval[1], "converged": result.converged,
-                   "warnings": " ".join(result.warnings)}
+    of_first = _shares(first)
+    for share, readings in _shares(result).items():
+        of_share = {"share": share} if result.shares else {}
+        for name, reading in readings.items():
+            for statistic in _statistics(reading):
+                yield {**variant, "sensor": name, **of_share, **_numbers(reading, of_first.get(share, {}).get(name), statistic),
+                       "converged": result.converged, "warnings": " ".join(result.warnings)}
+
+
+def _shares(result: Result) -> dict[str, Mapping[str, Reading]]:
+    """The readings by all light, and by each part of it."""
+    return {"": result, **result.shares}
+
+
+def _numbers(reading: Reading, before: Reading | None, statistic: str) -> dict[str, Any]:
+    """`before`: the same in the first variant; None where that has no such reading."""
+    value: Estimate = getattr(reading, statistic)
+    is_paired = before is not None and before.replicates.shape == reading.replicates.shape
+    change = difference(reading, before, statistic) if before is not None and is_paired else UNKNOWN
+    numbers: dict[str, Any] = {"statistic": "value" if reading.size == 1 else statistic, "unit": value.unit}
+    for name, ends, estimate in (("value", "interval", value), ("difference", "difference", change)):
+        error = "standard_error" if estimate is value else f"{name}_standard_error"
+        low, high = estimate.interval
+        numbers |= {name: estimate.value, error: estimate.standard_error, f"{ends}_low": low, f"{ends}_high": high}
+    return numbers
 
 
 def _statistics(reading: Reading) -> tuple[str, ...]:
@@ -114,11 +148,3 @@ def _statistics(reading: Reading) -> tuple[str, ...]:
         return STATISTICS[:1]
     is_illuminance = reading.unit == "lx"  # of luminances and ratings ratios have no meaning
     return STATISTICS if is_illuminance else STATISTICS[:3]
-
-
-def _difference(after: Reading, before: Reading, statistic: str) -> Estimate:
-    """Replicate by replicate, as the command line has it: by Student's t alone."""
-    a, b = (getattr(reading, statistic) for reading in (after, before))
-    own, other = (next(iter(estimate._errors.residuals.values())) for estimate in (a, b))
-    key = after._key._replace(confidence=max(after._key.confidence, before._key.confidence))
-    return combined(a.value - b.value, a.unit, [(a._errors._replace(residuals={key: own - other}, margins={}), 1.0)])

@@ -3,6 +3,7 @@
 import logging
 import os
 import signal
+import subprocess
 import sys
 import unittest
 import unittest.mock
@@ -87,12 +88,40 @@ class Clusters(unittest.TestCase):
             self.measured(built(), paths=64, parts=0)
         with self.assertRaisesRegex(stilb.InputError, "ray-bundle|method"):
             self.measured(built(), paths=64, method="magic")
+        for scene, client, progress, message in [(built(), "tcp://scheduler:8786", None, "client: found a value of type str. Allowed: a dist"),
+                                                 ("room.toml", self.client, None, "scene: found a value of type str"),
+                                                 (built(), self.client, True, "progress: found a value of type bool. Allowed: a function")]:
+            with self.assertRaisesRegex(stilb.InputError, message):
+                stilb.distributed.measure(scene, client, paths=64, progress=progress)
 
     def test_errors_of_workers_arrive(self):
         scene = built()
         scene.sensors["task"] = stilb.Goniometer(point=(2, 1.5, 1.2), normal=(0, 0, 1), plane=0, step=30)
         with self.assertRaisesRegex(stilb.InputError, "its point .* is not on a surface"):
             self.measured(scene, paths=64)
+
+
+class Ended(unittest.TestCase):
+    def test_a_round_that_is_cancelled_leaves_no_message(self):
+        """Not even where the cluster is closed while its parts are still worked on."""
+        made = subprocess.run([sys.executable, "-B", "-c", CLOSED_EARLY], capture_output=True, text=True, check=False,
+                              cwd=os.path.dirname(__file__))
+        self.assertEqual((made.returncode, made.stderr), (0, ""))
+        self.assertIn("working", made.stdout)
+
+
+CLOSED_EARLY = """
+import distributed
+import stilb
+from room import built
+
+scene = built()
+scene.sensors["desk"].count = (16, 16)
+with distributed.LocalCluster(n_workers=2, threads_per_worker=1, processes=False, dashboard_address=None) as cluster:
+    with distributed.Client(cluster) as client:
+        stilb.distributed.measure(scene, client, error=0.2, method="path", sensors="desk")
+        print("working" if any(client.processing().values()) else "idle")
+"""
 
 
 class WithoutDask(unittest.TestCase):

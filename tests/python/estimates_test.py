@@ -1,6 +1,9 @@
 """Arithmetic with estimates, covariances and paired differences: errors that contain the correlations."""
 
+import json
+import pickle
 import unittest
+import warnings
 
 import numpy as np
 import stilb
@@ -93,6 +96,13 @@ class Arithmetic(unittest.TestCase):
         self.assertEqual(f"{mean:.1f}", f"{mean.value:.1f}")
         self.assertEqual(f"{mean}", repr(mean))
 
+    def test_what_has_no_interval_is_refused(self):
+        mean = self.desk.mean
+        for wrong, meant in [(lambda: abs(mean), r"abs\(estimate.value\)"), (lambda: mean < 3, r"Compare their values \(estimate.value\)"),
+                             (lambda: max(mean, self.wall.mean), "no order"), (lambda: round(mean, 1), r"round\(estimate.value, 1\)")]:
+            with self.assertRaisesRegex(TypeError, meant):
+                wrong()
+
     def test_results_with_other_seeds_are_independent(self):
         a, b = self.desk.mean, self.scene.measure(paths=PATHS, seed=8)["desk"].mean
         difference = a - b
@@ -127,6 +137,70 @@ class Arithmetic(unittest.TestCase):
         self.assertGreaterEqual(hits, 48)  # of 60; fewer have a probability of 1e-5
 
 
+class SeveralRuns(unittest.TestCase):
+    """Few paths, so that light is rare."""
+
+    @classmethod
+    def setUpClass(cls):
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", stilb.ResultWarning)
+            cls.runs = [built().start(paths=1024, method="path", seed=seed) for seed in range(1, 9)]
+            cls.results = [run.finish() for run in cls.runs]
+            cls.merged = stilb.merge(cls.runs).result
+
+    @staticmethod
+    def widths(estimate):
+        """Below and above the value."""
+        return estimate.value - estimate.interval[0], estimate.interval[1] - estimate.value
+
+    def test_margins_for_rare_light_of_independent_runs_add_in_quadrature(self):
+        means = [result["eye"].mean for result in self.results]
+        margins = [above - below for below, above in map(self.widths, means)]  # those below have Student's t alone
+        self.assertGreater(max(margins), 0)
+        below, above = self.widths(sum(means[1:], means[0]) / len(means))
+        self.assertAlmostEqual(above - below, np.hypot.reduce(margins) / len(means))
+        # The merged run is the same mean: it is not less sure but for its smaller number of degrees of freedom.
+        self.assertLess(self.widths(self.merged["eye"].mean)[1], 1.2 * above)
+        a, b = means[:2]
+        below, above = self.widths(a - b)
+        self.assertAlmostEqual(above - below, margins[0] - margins[1])
+
+    def test_biases_of_minima_add_up(self):
+        minima = [result["desk"].minimum for result in self.results[:2]]
+        beyond = [self.widths(minimum)[1] - self.widths(minimum)[0] for minimum in minima]
+        below, above = self.widths(minima[0] + minima[1])
+        self.assertAlmostEqual(above - below, sum(beyond))
+
+    def test_merged_runs_have_all_seeds(self):
+        self.assertEqual((self.merged.seeds, self.merged["eye"].run.seeds), (tuple(range(1, 9)), tuple(range(1, 9))))
+        self.assertEqual((self.results[2].seeds, self.results[2].seed), ((3,), 3))
+        document = json.loads(self.merged.to_json())
+        self.assertEqual((document["seed"], document["seeds"]), (1, list(range(1, 9))))
+        self.assertNotIn("seeds", json.loads(self.results[0].to_json()))
+        again = pickle.loads(pickle.dumps(self.merged))
+        with self.assertRaisesRegex(stilb.InputError, r"same seed \(5\), so that .* Take runs without a common seed"):
+            again["eye"].mean - self.results[4]["eye"].mean
+        self.assertEqual((again["eye"].mean - self.merged["eye"].mean).value, 0)
+        half, other, overlapping = (stilb.merge(self.runs[begin:end]).result for begin, end in ((0, 4), (4, 8), (3, 8)))
+        difference = half["eye"].mean - other["eye"].mean
+        self.assertAlmostEqual(difference.standard_error, np.hypot(half["eye"].mean.standard_error, other["eye"].mean.standard_error))
+        with self.assertRaisesRegex(stilb.InputError, r"same seed \(4\)"):
+            half["eye"].mean - overlapping["eye"].mean
+
+    def test_merged_runs_of_the_same_seeds_are_paired(self):
+        scene = built()
+        scene.materials["wall"].reflectance = (0.71, 0.51, 0.31)
+        others = [scene.start(paths=1024, method="path", seed=seed) for seed in (2, 1)]
+        for run in others:
+            run.finish()
+        pair = stilb.paired(stilb.merge(others).result, stilb.merge(self.runs[:2]).result)["desk"].mean
+        self.assertTrue(pair.interval[0] > 0 and pair.standard_error < self.merged["desk"].mean.standard_error)
+        with self.assertRaisesRegex(stilb.InputError, r"the seeds 1 and \(1, 2\), so that their errors are partly the same"):
+            stilb.paired(self.results[0], stilb.merge(self.runs[:2]).result)
+        with self.assertRaisesRegex(stilb.InputError, r"the seeds 3 and \(1, 2\), so that their errors are independent"):
+            stilb.paired(self.results[2], stilb.merge(self.runs[:2]).result)
+
+
 class Pairs(unittest.TestCase):
     def test_paired_differences_are_better_known(self):
         scene = built()
@@ -145,8 +219,13 @@ class Pairs(unittest.TestCase):
         self.assertEqual(desk.mean.unit, "lx")
         independent = np.hypot(after["desk"].mean.standard_error, before["desk"].mean.standard_error)
         self.assertLess(desk.mean.standard_error, independent / 5)
-        low, high = desk.interval()
+        low, high = desk.interval
         self.assertTrue(np.all((low < desk.value) & (desk.value < high)))
+        t = stilb.statistics.student_t_quantile(0.975, before.replicates - 1)
+        np.testing.assert_allclose(high - desk.value, t * desk.standard_error)
+        np.testing.assert_allclose(desk.value - low, t * desk.standard_error)
+        for estimate in (desk.mean, desk.minimum, desk.uniformity):
+            np.testing.assert_allclose(estimate.interval, estimate.value + t * estimate.standard_error * np.array([-1, 1]))
         scene.run["seed"] = 1000
         truth = [scene.measure(paths=2**19, method="path")["desk"].mean.value]
         scene.materials["wall"].reflectance = (0.7, 0.5, 0.3)
@@ -170,6 +249,8 @@ class Pairs(unittest.TestCase):
         self.assertEqual(list(stilb.paired(a, other.measure(paths=PATHS))), ["eye"])
         with self.assertRaisesRegex(stilb.InputError, "no sensor of the same name and size in common: desk; eye"):
             stilb.paired(scene.measure(paths=PATHS, sensors=["desk"]), scene.measure(paths=PATHS, sensors=["eye"]))
+        with self.assertRaisesRegex(stilb.InputError, "before: found a value of type Reading. Allowed: results of scene.measure"):
+            stilb.paired(a, a["desk"])
         with self.assertRaisesRegex(KeyError, "no sensor 'desc' in common; they have: desk, eye"):
             stilb.paired(a, scene.measure(paths=PATHS))["desc"]
 

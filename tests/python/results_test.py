@@ -77,8 +77,21 @@ class Readings(unittest.TestCase):
         wider, _ = desk.interval(0.99)
         t = [stilb.statistics.student_t_quantile(p, desk.run.replicates - 1) for p in (0.975, 0.995)]
         np.testing.assert_allclose((desk.value - wider) / (desk.value - low), t[1] / t[0])
-        with self.assertRaisesRegex(stilb.InputError, "confidence 95: expected a probability between 0 and 1"):
-            desk.interval(95)
+        for wrong in (95, "x"):
+            with self.assertRaisesRegex(stilb.InputError, f"confidence {wrong}: expected a probability between 0 and 1"):
+                desk.interval(wrong)
+
+    def test_intervals_are_pairs_that_may_be_called(self):
+        desk = self.result["desk"]
+        for holder in (desk, desk.mean, desk.uniformity, desk.maximum - desk.mean, stilb.paired(self.result, self.result)["desk"]):
+            low, high = holder.interval
+            np.testing.assert_array_equal(holder.interval(), (low, high))
+            np.testing.assert_array_equal(pickle.loads(pickle.dumps(holder.interval)), (low, high))
+            wider = holder.interval(0.99)
+            self.assertTrue(np.all(wider[0] <= low) and np.all(wider[1] >= high))
+        t = [stilb.statistics.student_t_quantile(p, desk.run.replicates - 1) for p in (0.975, 0.995)]
+        low, wider = desk.mean.interval[0], desk.mean.interval(0.99)[0]
+        self.assertAlmostEqual((desk.mean.value - wider) / (desk.mean.value - low), t[1] / t[0])
 
     def test_statistics_have_intervals(self):
         desk = self.result["desk"]
@@ -149,6 +162,14 @@ class Readings(unittest.TestCase):
         self.assertEqual(np.asarray(desk).mean(), desk.value.mean())
         np.testing.assert_array_equal(2 * np.asarray(self.result["eye"][1:]), 2 * self.result["eye"].value[1:])
 
+    def test_functions_of_numpy_have_the_values(self):
+        desk, eye = self.result["desk"], self.result["eye"]
+        self.assertAlmostEqual(np.mean(desk), desk.mean.value)
+        np.testing.assert_array_equal(np.mean(desk, axis=0), desk.value.mean(0))
+        np.testing.assert_array_equal(np.concatenate([np.ravel(desk), eye]), [*desk.value.ravel(), *eye.value])
+        self.assertEqual((np.max(desk), np.shape(desk), np.sqrt(eye).shape), (desk.value.max(), (2, 4), (3,)))
+        self.assertEqual(np.mean(stilb.paired(self.result, self.result)["desk"]), 0)
+
     def test_a_call_takes_less_than_5_ms_more_than_its_run(self):
         def overhead():
             begin = time.perf_counter()
@@ -187,9 +208,14 @@ class Points(unittest.TestCase):
 
     def test_wrong_points_are_refused(self):
         scene = built()
-        for points, normals, message in [([1, 2], [0, 0, 1], "do not fit"), ([1], [1], "found positions of shape"),
-                                         ([1, 1, 1], [0, 0, 0], "point 0: "), ([1, np.nan, 1], [0, 0, 1], "point 0: ")]:
-            with self.assertRaisesRegex(stilb.InputError, message):
+        for points, normals, message in [
+                ([1, 2], [0, 0, 1], r"points: found an array of shape \(2,\). Allowed: \(..., 3\)"),
+                ([1, 1, 1], [0, 1], r"normals: found an array of shape \(2,\)"), ([1, 1, 1], 1, r"normals: found .* shape \(\)"),
+                (np.ones((2, 3)), np.ones((3, 3)), r"points of shape \(2, 3\) and normals of shape \(3, 3\) do not fit"),
+                (np.ones((0, 3)), [0, 0, 1], r"points: found .* shape \(0, 3\)"), ("a", [0, 0, 1], "points: found a value of type str"),
+                ([[1, 1, 1], [1, 1]], [0, 0, 1], "points: found a value of type list. Allowed: numbers"),
+                ([1, 1, 1], [0, 0, 0], "point 0: "), ([1, np.nan, 1], [0, 0, 1], "point 0: ")]:
+            with self.subTest(message), self.assertRaisesRegex(stilb.InputError, message):
                 scene.illuminance(points, normals)
 
 
@@ -368,6 +394,12 @@ class Runs(unittest.TestCase):
                                  ({"sensors": []}, "^sensors: the list is empty. Allowed: names of sensors .desk, eye, view.")]:
             with self.subTest(options), self.assertRaisesRegex(stilb.InputError, message):
                 built().measure(**options)
+        for call, message in [(lambda: built().measure(sensors=3), "sensors: found a value of type int. Allowed: names of sensors .desk"),
+                              (lambda: built().measure(sensors=[3]), "sensors: found a value of type int"),
+                              (lambda: built().measure(progress="yes"), "progress: found a value of type str. Allowed: True, or"),
+                              (lambda: built().render(3), "camera: found a value of type int. Allowed: the name of a camera")]:
+            with self.assertRaisesRegex(stilb.InputError, message):
+                call()
         self.assertEqual(built().measure(paths=4096.0).paths, built().measure(paths=4096).paths)
         with self.assertRaisesRegex(stilb.InputError, "window has no effect with method path unless first_shot is given"):
             built().measure(method="path", window="cube")

@@ -102,8 +102,18 @@ class Shares(InFolder):
         self.assertGreater(dimmed["desk"].mean.standard_error, 0)
         with self.assertRaisesRegex(stilb.InputError, "lamp"):
             result.dimmed(lamp=1)
-        with self.assertRaisesRegex(stilb.InputError, "lights.panel: -1 is not allowed"):
-            result.dimmed(panel=-1)
+        for factor in (-1, [1, 0.5], "50%", [[1], 2], None):
+            with self.subTest(factor), self.assertRaisesRegex(stilb.InputError, "lights.panel: .* is not allowed. Allowed: a factor of 0"):
+                result.dimmed(panel=factor)
+        with self.assertRaisesRegex(stilb.InputError, "lights: found a value of type float. Allowed: factors by the names"):
+            result.dimmed(0.5)
+        for same in (result.dimmed({"panel": 0.5}, bulb=[0, 1, 0]), result.dimmed(panel=np.float32(0.5), bulb=np.array([0, 1, 0]))):
+            np.testing.assert_array_equal(same["desk"].value, dimmed["desk"].value)
+        with self.assertRaisesRegex(stilb.InputError, "a dimmed one already. Dim the one that it was made from, with the factors of all"):
+            pickle.loads(pickle.dumps(dimmed)).dimmed(bulb=1)
+        with self.assertRaisesRegex(stilb.InputError, "result 1 is a dimmed one"):
+            stilb.merge([dimmed])
+        self.assertLess(stilb.paired(dimmed, result)["desk"].mean.value, 0)
         again = pickle.loads(pickle.dumps(result))
         np.testing.assert_array_equal(again.dimmed(panel=0.5, bulb=0)["desk"].value, result.dimmed(panel=0.5, bulb=0)["desk"].value)
         np.testing.assert_array_equal(again.shares["panel"]["desk"].value, result.shares["panel"]["desk"].value)
@@ -156,8 +166,11 @@ class Continued(InFolder):
             run.save(self.folder / "room.run")
         with self.assertRaisesRegex(TypeError, "unknown argument eror"):
             self.scene().start(eror=0.01)
-        with self.assertRaisesRegex(stilb.InputError, "the list is empty"):
-            self.scene().start(sensors=[])
+        for wrong, message in [({"sensors": []}, "the list is empty"), ({"sensors": "chair"}, "chair"),
+                               ({"method": "magic"}, 'method: "magic" is not allowed'), ({"progress": "yes"}, "progress: found a value"),
+                               ({"method": "path", "window": "cube"}, "window has no effect")]:
+            with self.subTest(message), self.assertRaisesRegex(stilb.InputError, message):
+                self.scene().start(**wrong)
 
     def test_followed_runs_are_those_in_one_go(self):
         for method, error in (("path", 0.013), ("light-paths", 0.013)):
@@ -382,8 +395,13 @@ class Merged(InFolder):
             stilb.merge([run, other])
         with self.assertRaisesRegex(stilb.InputError, "result 2 has not kept its sums"):
             stilb.merge([run, run.result])
-        with self.assertRaisesRegex(stilb.InputError, "the list is empty"):
-            stilb.merge([])
+        by_light = built().measure(paths=64, by="light")
+        for wrong, message in [([], "the list is empty"), (by_light, "runs: found a value of type Result. Allowed: a list"),
+                               ("a.run", "runs: found a value of type str. Allowed: a list of runs and names"), (run, "ResumableRun. Allowed"),
+                               (Path("a.run"), "runs: found a value of type .*Path. Allowed"), ([run, 3], "run 2: found a value of type int"),
+                               ([scene.start(paths=PATHS)], "run 1 has not begun, and has nothing to merge")]:
+            with self.subTest(message), self.assertRaisesRegex(stilb.InputError, message):
+                stilb.merge(wrong)
 
     def test_results_by_light_are_merged(self):
         scene = self.scene()

@@ -1,6 +1,7 @@
 """Scenes in Python: read, built, changed, saved, and what is wrong with them."""
 
 import json
+import pickle
 import tempfile
 import unittest
 from pathlib import Path
@@ -10,6 +11,7 @@ import stilb
 from room import TOML, built, program
 from stilb import _meanings, _stilb
 from stilb._names import class_name
+from stilb.toml import document_text
 
 PATHS = 2048
 
@@ -92,6 +94,86 @@ class SceneFiles(unittest.TestCase):
                          | {"center": (3, 2, 2)})
         np.testing.assert_array_equal(saved.measure(paths=PATHS)["desk"].value, scene.measure(paths=PATHS)["desk"].value)
 
+    def test_every_sequence_is_saved_as_an_array(self):
+        scene = built()
+        scene.objects["lamp"] = stilb.Sphere(center=range(1, 4), radius=np.float32(0.5), material="wall")
+        scene.objects["ball"] = stilb.Sphere(center=(x / 2 for x in (1, 2, 3)), radius=0.25, material="wall")
+        scene.sensors["spots"] = stilb.Illuminance(points=[np.array([1, 1, 1]), (1, 2, 1)], normal=(0, 0, 1))
+        scene.light_scenes["late"] = {"bulb": np.array([1, 0.5, 0])}
+        scene.measure(paths=64)  # which reads each value, too
+        scene.save(self.folder / "saved.toml")
+        text = (self.folder / "saved.toml").read_text()
+        for line in ("center = [1, 2, 3]", "radius = 0.5", "center = [0.5, 1.0, 1.5]", "radius = 0.25",
+                     "points = [[1, 1, 1], [1, 2, 1]]", "bulb = [1.0, 0.5, 0.0]"):
+            self.assertIn(f"\n{line}\n", text)
+        for value, kind in ((None, "NoneType"), (b"1", "bytes"), (1j, "complex"), ({1}, "set"), ([object()], "object")):
+            with self.subTest(kind), self.assertRaisesRegex(stilb.InputError, f"^lights.bulb.flux.*: .* of type {kind}"):
+                stilb.load(self.file, set={"lights.bulb.flux": value})
+
+    def test_scenes_with_mistakes_write_over_no_file(self):
+        good = self.file.read_text()
+        self.file.chmod(0o640)
+        for change, message in [(lambda scene: scene.materials.clear(), 'objects.room.material: unknown material "wall"'),
+                                (lambda scene: scene.set("lights.bulb.flux", object()), "lights.bulb.flux: .* of type object"),
+                                (lambda scene: scene.light_scenes.update(late={"bulp": 1}), "bulp")]:
+            scene = stilb.load(self.file)
+            change(scene)
+            with self.subTest(message), self.assertRaisesRegex(stilb.InputError, message):
+                scene.save(self.file)
+        link = self.folder / "link.toml"
+        link.symlink_to(self.file)
+        with self.assertRaisesRegex(stilb.InputError, "meshes/floor.obj"):
+            floor = stilb.load(self.file)
+            floor.objects["floor"] = stilb.Mesh(file="meshes/floor.obj", material="wall")
+            floor.save(link)
+        self.assertEqual(self.file.read_text(), good)
+        self.assertEqual({file.name for file in self.folder.iterdir()}, {"room.toml", "link.toml"})
+        scene.light_scenes.clear()
+        scene.save(link)
+        self.assertNotEqual(self.file.read_text(), good)
+        self.assertEqual((link.is_symlink(), self.file.stat().st_mode & 0o777), (True, 0o640))
+        with self.assertRaisesRegex(stilb.InputError, "this is no file that could be written"):
+            scene.save(self.folder)
+        with self.assertRaisesRegex(FileNotFoundError, "'.*/none/room.toml'$"):
+            scene.save(self.folder / "none/room.toml")
+
+    def test_loaded_scenes_outlive_their_files(self):
+        before = stilb.load(self.file).measure(paths=PATHS)["desk"]
+        for lose in (self.file.unlink, lambda: self.file.write_text(TOML.replace("800", "8"))):
+            self.file.write_text(TOML)
+            scene = stilb.load(self.file)
+            run = scene.start(paths=PATHS)
+            self.assertLess(next(iter(run)).paths, 2 * PATHS)
+            lose()
+            result = scene.measure(paths=PATHS)
+            np.testing.assert_array_equal(result["desk"].value, before.value)
+            self.assertIsNone(json.loads(result.to_json())["scene_hash"])  # that of another file would be wrong
+            np.testing.assert_array_equal(run.finish()["desk"].value, before.value)
+            run.save(self.folder / "kept.run")
+            np.testing.assert_array_equal(stilb.resume(self.folder / "kept.run").result["desk"].value, before.value)
+            (self.folder / "kept.run").unlink()
+            (self.folder / "kept.toml").unlink()
+        self.file.write_text(TOML)
+        scene = stilb.load(self.file)
+        self.file.write_text(TOML)  # the same again
+        self.assertIsNotNone(json.loads(scene.measure(paths=64).to_json())["scene_hash"])
+
+    def test_scenes_of_other_formats_say_that_they_need_their_file(self):
+        file = self.folder / "floor.rad"
+        file.write_text("void plastic grey 0 0 5 0.5 0.5 0.5 0 0\ngrey polygon floor 0 0 12 -2 -2 0 2 -2 0 2 2 0 -2 2 0\n")
+        scene = stilb.load(file)
+        scene.lights["bulb"] = stilb.PointLight(position=(0, 0, 3), intensity=100)
+        scene.illuminance((0, 0, 1), (0, 0, 1), paths=64)
+        kept = pickle.dumps(scene)
+        file.write_text(file.read_text().replace("0.5", "0.2"))
+        for wrong in (lambda: scene.illuminance((0, 0, 1), (0, 0, 1), paths=64), lambda: pickle.loads(kept)):
+            with self.assertRaisesRegex(stilb.InputError, "floor.rad: this file is not there any more, or has changed"):
+                wrong()
+
+    def test_scene_files_may_have_a_byte_order_mark(self):
+        self.file.write_text("\ufeff" + TOML)
+        self.assertEqual(list(stilb.load(self.file).lights), ["bulb"])
+
     def test_scenes_are_read_from_texts(self):
         scene = stilb.Scene.parse(TOML)
         np.testing.assert_array_equal(scene.measure(paths=PATHS)["desk"].value, built().measure(paths=PATHS)["desk"].value)
@@ -117,8 +199,10 @@ class SceneFiles(unittest.TestCase):
         self.assertEqual((scene.run["seed"], scene.defaults["lights"]["maintenance"]), (7, 0.8))
         with self.assertRaisesRegex(stilb.InputError, 'unknown section "light". Did you mean "lights"'):
             stilb.Scene.from_dict({"light": {}})
-        with self.assertRaisesRegex(stilb.InputError, "run: found a value of type int. Allowed: a dictionary"):
-            stilb.Scene.from_dict({"run": 3})
+        for document, message in [({"run": 3}, "run: found a value of type int. Allowed: a dictionary"), ([1], "document: found"),
+                                  ({"scene": {"title": "a"}}, 'scene: unknown key "title". Allowed: name')]:
+            with self.assertRaisesRegex(stilb.InputError, message):
+                stilb.Scene.from_dict(document)
 
     def test_keys_are_set_by_their_names(self):
         scene = built()
@@ -140,6 +224,10 @@ class SceneFiles(unittest.TestCase):
         for key, message in [("light.bulb.flux", 'unknown section "light". Did you mean "lights"'),
                              ("lights.blub.flux", 'lights.blub.flux: there is no "blub" in lights. Did you mean "bulb"[?] Allowed: bulb'),
                              ("lights.bulb.fluxx", 'lights.bulb.fluxx: .*no key "fluxx". Did you mean "flux"'),
+                             ("lights.bulb.position.0", "lights.bulb.position has no keys of its own, as its value is .2, 1.5, 2.2.. "
+                                                        "Set all of it: lights.bulb.position"),
+                             ("sensors.desk.require.mean.least", "sensors.desk.require.mean has no keys of its own"),
+                             ("run.seed.first", "run.seed.first: run.seed has no keys of its own, as its value is 3"),
                              ("lights", "lights: there is no such key"), ("a b", "a b: this is no key")]:
             with self.subTest(key), self.assertRaisesRegex(stilb.InputError, message):
                 scene.set(key, 1)
@@ -205,6 +293,8 @@ class SceneFiles(unittest.TestCase):
             illuminance(light_scale=-1)
         with self.assertRaisesRegex(stilb.InputError, "import"):
             stilb.load(self.file, scale=0.01)  # a scene file states its positions in metres
+        with self.assertRaisesRegex(TypeError, "unknown argument sacle; allowed: set, progress, scale, up"):
+            stilb.load(file, sacle=2)
 
     def test_reading_reports_its_progress(self):
         corners = np.arange(3_000_000).reshape(-1, 3) % 1009
@@ -261,6 +351,21 @@ class Parts(unittest.TestCase):
             scene.lights["bulb"].type = "sphere"
         scene.lights["bulb"].cct = 3000
 
+    def test_scenes_have_no_other_attributes(self):
+        scene = built()
+        for holder, name, value, message in [
+                (scene, "scenes", {}, 'Scene has no attribute "scenes". Did you mean "light_scenes"[?] Allowed: name, run, '),
+                (scene, "sensor", {}, 'Did you mean "sensors"'), (scene, "sensors", {}, r"scene.sensors\[...\] = ..., "),
+                (scene, "run", 3, "run: found a value of type int"), (scene, "name", 3, "name: found a value of type int"),
+                (scene.lights, "bulb", 3, r'lights have no attribute bulb: .* scene.lights\["bulb"\]')]:
+            with self.subTest(name), self.assertRaisesRegex(stilb.InputError, message):
+                setattr(holder, name, value)
+        scene.run = {"seed": 3}
+        scene.name = "other"
+        self.assertEqual(scene.measure(paths=64).seed, 3)
+        with self.assertRaisesRegex(stilb.InputError, "lights: the name of a part: found a value of type int. Allowed: a text"):
+            scene.lights[3] = stilb.PointLight(position=(2, 1.5, 2.3), flux=800)
+
     def test_wrong_parts_are_refused(self):
         scene = built()
         with self.assertRaisesRegex(stilb.InputError, "lights.bulb: Diffuse belongs to materials, not to lights"):
@@ -279,6 +384,14 @@ class Parts(unittest.TestCase):
         scene.sensors["desk"].points = object()
         with self.assertRaisesRegex(stilb.InputError, "sensors.desk.points: a value of type object is not allowed"):
             scene.measure()
+
+    def test_the_widest_numbers_of_numpy_are_values(self):
+        """Their tolist() are themselves."""
+        scene = built()
+        before = scene.measure(paths=PATHS)["desk"].value
+        scene.lights["bulb"] = stilb.PointLight(position=np.array([2, 1.5, 2.3], np.longdouble), flux=np.longdouble(800))
+        np.testing.assert_array_equal(scene.measure(paths=PATHS)["desk"].value, before)
+        self.assertIn("flux = 800.0", document_text(scene.to_dict()))
 
     def test_parts_change_by_their_attributes_only(self):
         vertices = np.array([[0, 0, 0], [1, 0, 0], [0, 1, 0.0]])
