@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import os
-import re
 import tempfile
 import uuid
 import warnings
@@ -419,12 +418,8 @@ class Result(Run, Mapping[str, Reading]):
         return np.asarray(a.T @ b / (len(a) * (len(a) - 1)))
 
     def to_json(self) -> str:
-        """The document of `stilb measure --json` (docs/json.md). Of several seeds it has `seeds`, too."""
-        text = self._result.json()
-        if len(self.seeds) == 1:
-            return text
-        # The library's document has the first one alone. A key within a text has backslashes before its quotation marks.
-        return re.sub(r'(?<!\\)"seed": *\d+', lambda found: f'{found[0]}, "seeds": {list(self.seeds)}', text, count=1)
+        """The document of `stilb measure --json` (docs/json.md)."""
+        return self._result.json()
 
     def to_pandas(self) -> pandas.DataFrame:
         """A table with a row for each reading of all sensors: those of `Reading.to_pandas()`, with the sensor's name and

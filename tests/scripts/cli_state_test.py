@@ -138,6 +138,7 @@ class Merged(StateTest):
         expected = sum(mean * paths for mean, paths in means) / sum(paths for _, paths in means)
         self.assertAlmostEqual(merged["sensors"][1]["values"][0]["value"], expected, delta=1e-3 * expected)
         self.assertEqual(merged["paths"], 3 * 65536)
+        self.assertEqual((merged["seed"], merged["seeds"]), (1, [1, 2]))
 
     def test_parts_of_several_seeds_in_any_order_and_any_folder(self):
         (self.folder / "runs").mkdir()

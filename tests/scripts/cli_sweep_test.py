@@ -62,10 +62,20 @@ class SweepTest(CommandLineTest):
         # Unpaired, the difference of two such runs is as unsure as both together.
         unpaired = math.hypot(*(float(row["interval_high"]) - float(row["interval_low"]) for row in rows))
         self.assertLess(5 * (high - low), unpaired)
+        # A 95 % interval of Student's t of 32 replicates: 2.04 standard errors on each side.
+        self.assertAlmostEqual((high - low) / 2 / float(rows[1]["difference_standard_error"]), 2.04, delta=0.01)
+        for row in rows:
+            self.assertLess(0, float(row["standard_error"]))
+            self.assertLess(float(row["standard_error"]), float(row["interval_high"]) - float(row["value"]))
 
     def test_readings_that_the_first_variant_lacks_have_no_difference(self):
         rows = self.sweep("--vary", "sensors.desk.count=[3, 2],[2, 2]", "--paths", "64", "--sensor", "desk")
         self.assertEqual([row["difference"] == "" for row in rows], 5 * [False] + 5 * [True])
+
+    def test_light_is_not_kept_apart(self):
+        result = run("measure", self.scene, "--vary", "materials.wall.reflectance=0.3,0.5", "--by", "light", "--paths", "64")
+        self.assertEqual(result.returncode, 2)
+        self.assertIn("--vary has one table of all light", result.stderr)
 
     def test_combinations_and_zip(self):
         keys = ["--vary", "materials.wall.reflectance=0.3,0.5", "--vary", "lights.bulb.flux=500,1000,2000"]

@@ -144,11 +144,19 @@ class SweepTable {
     std::vector<io::Column> columns() const {
         std::vector<io::Column> all;
         for (std::size_t k = 0; k < keys_.size(); ++k) all.push_back({names_[k], keys_[k]});
-        const std::vector<io::Column> rest{
-            {"sensor", sensors_},        {"statistic", statistics_},      {"unit", units_},
-            {"value", numbers_[0]},      {"interval_low", numbers_[1]},   {"interval_high", numbers_[2]},
-            {"difference", numbers_[3]}, {"difference_low", numbers_[4]}, {"difference_high", numbers_[5]},
-            {"converged", converged_},   {"warnings", warnings_}};
+        const std::vector<io::Column> rest{{"sensor", sensors_},
+                                           {"statistic", statistics_},
+                                           {"unit", units_},
+                                           {"value", numbers_[0]},
+                                           {"standard_error", numbers_[1]},
+                                           {"interval_low", numbers_[2]},
+                                           {"interval_high", numbers_[3]},
+                                           {"difference", numbers_[4]},
+                                           {"difference_standard_error", numbers_[5]},
+                                           {"difference_low", numbers_[6]},
+                                           {"difference_high", numbers_[7]},
+                                           {"converged", converged_},
+                                           {"warnings", warnings_}};
         all.insert(all.end(), rest.begin(), rest.end());
         return all;
     }
@@ -173,8 +181,9 @@ class SweepTable {
         sensors_.push_back(sensor.sensor.name);
         statistics_.push_back(statistic);
         units_.emplace_back(is_ratio_name(statistic) ? "" : sensor.sensor.quantity().unit);
-        const std::array<double, 6> numbers{value.value,      value.lower,      value.upper,
-                                            difference.value, difference.lower, difference.upper};
+        const std::array<double, 8> numbers{value.value,      value.standard_error, value.lower,
+                                            value.upper,      difference.value,     difference.standard_error,
+                                            difference.lower, difference.upper};
         for (std::size_t i = 0; i < numbers.size(); ++i) numbers_[i].push_back(numbers[i]);
         converged_.emplace_back(result.converged ? "true" : "false");
         warnings_.push_back(fmt::format("{}", fmt::join(texts_of(result.warnings), " ")));
@@ -189,7 +198,7 @@ class SweepTable {
     std::vector<std::string> names_;
     std::vector<std::vector<std::string>> keys_;
     std::vector<std::string> sensors_, statistics_, units_, converged_, warnings_;
-    std::array<std::vector<double>, 6> numbers_;
+    std::array<std::vector<double>, 8> numbers_;
     std::string text_;
 };
 
@@ -265,6 +274,11 @@ int run_sweep(const SweepFlags& flags, const std::string& csv, bool quiet,
         for (std::size_t k = 0; k < variant.size(); ++k)
             overrides.push_back(fmt::format("{}={}", variations[k].key, variant[k]));
         Measurement measurement = prepare(overrides);
+        if (measurement.options.by != "none")
+            throw InputError(
+                "--vary has one table of all light: take --by with one variant at a time, or "
+                "stilb.sweep(..., by=...) "
+                "in Python.");
         TerminalProgress progress;
         ProgressSink* const shown = quiet ? nullptr : &progress;
         const bool is_first = !first;

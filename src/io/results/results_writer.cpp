@@ -337,6 +337,7 @@ std::vector<std::string> json_parts(const RunResult& result, const std::string& 
               {"converged", result.converged},
               {"stopped", run::name_of(result.stop_reason)},
               {"attained_error", result.attained_error}};
+    if (!result.seeds.empty()) json["seeds"] = result.seeds;
     if (const auto verdict = run::verdict_of(result)) json["verdict"] = run::name_of(*verdict);
     json["warnings"] = texts_of(result.warnings);
     json["warning_kinds"] = kind_names_of(result.warnings);

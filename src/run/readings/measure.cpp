@@ -439,6 +439,7 @@ RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> gi
                  result.warnings);
     add_warnings(WarningKind::patches, patch_error_warnings(result), result.warnings);
     session.finish(result);
+    if (!state.more_seeds.empty()) result.seeds = state.seeds();
     result.scene_name = scene.name;
     return result;
 }
