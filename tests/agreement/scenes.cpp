@@ -512,7 +512,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"OnlyDiffuseTwice", nothing, 2, closed_box, inside, {}},
         {"RoughMetal", nothing, {}, rough_box, inside, {}},
         {"Translucent", nothing, {}, translucent_things, inside, {}, {}, 1, 3},
-        {"Frosted", finite_variance, {}, frosted_things, inside, around, {}, 1, 4},
+        {"Frosted", finite_variance, {}, frosted_things, inside, around, {}, 1, 8},
         {"TranslucentTwoReflections", nothing, 2, translucent_things, inside, around, {}, 1, 4},
         {"BrushedWard", nothing, {}, ward_box, inside, {}},
         {"Plastic", nothing, {}, plastic_box, inside, {}},
