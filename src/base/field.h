@@ -25,6 +25,8 @@
 
 namespace stilb {
 
+/// Of parameters that are true or false.
+inline constexpr Range kTruth{0, 1, "true or false"};
 inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
 
 /// Whether a key may be missing: the member then keeps its initial value.
@@ -58,6 +60,7 @@ std::string refusal(double value, const Range& range);
 void expect_inside(double value, const Range& range, const std::string& path);
 void expect_inside(const Rgb& value, const Range& range, const std::string& path);
 void expect_inside(std::span<const double> values, const Range& range, const std::string& path);
+inline void expect_inside(bool, const Range&, const std::string&) {}
 
 /// Throws an InputError: "path: message".
 [[noreturn]] void fail_at(std::string_view path, std::string_view message);

@@ -73,6 +73,21 @@ void require_diffuse(const Scene& scene, std::string_view method) {
     }
 }
 
+void require_reflection_only(const Scene& scene) {
+    for (const Object& object : scene.objects) {
+        for (const MaterialId id : object.materials) {
+            const NamedMaterial& used = scene.materials[index_of(id)];
+            if (lobes(used.material, materials::LightSide::outside, materials::Carried::flux).empty())
+                continue;
+            throw InputError(fmt::format(
+                "object \"{}\": its material \"{}\" is {} and lets light through, but methods with patches "
+                "keep "
+                "only the light that surfaces reflect. Use method auto, path or local, without first shot.",
+                object.name, used.name, type_name(used.material)));
+        }
+    }
+}
+
 void require_first_shot_of_points(const Scene& scene, FirstShotVariant variant, std::string_view method) {
     if (variant != FirstShotVariant::none) return;
     for (const Light& light : scene.lights) {

@@ -43,6 +43,8 @@ class Ggx {
     double passing(const Vec3& in, const Vec3& out) const {
         return out.z * (in.z + stretched(in)) / (out.z * stretched(in) + in.z * stretched(out));
     }
+    /// G1: the share of the facets that are not hidden from this direction.
+    double shown(const Vec3& v) const { return 2 * v.z / (v.z + stretched(v)); }
     /// Samples a normal of those visible from `in`, with their density if the point is uniform over the unit
     /// disk [Heitz 2018, Sampling the GGX distribution of visible normals].
     Vec3 visible_normal(const Vec3& in, const math::DiskPoint& point) const;

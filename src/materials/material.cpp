@@ -16,6 +16,8 @@ consteval bool is_model() {
     static_assert(Described<M>);
     if constexpr (requires { &M::branches; }) {
         static_assert(Specular<M>);
+    } else if constexpr (requires { &M::lobes; }) {
+        static_assert(Composed<M>);
     } else {
         static_assert(Scattering<M>);
     }
@@ -32,14 +34,14 @@ static_assert(are_models(std::type_identity<ModelList>{}));
 
 Material::Material() : Material(Diffuse{}) {}
 
-std::optional<std::string> contradiction_of_shares(const Rgb& diffuse, const Rgb& specular) {
+std::optional<std::string> contradiction_of_shares(const Rgb& diffuse, const Rgb& specular,
+                                                   std::string_view shares) {
     constexpr double rounding = 1e-12;  // 0.7 + 0.3 need not be 1 to the last bit
     const double largest = (diffuse + specular).max();
     if (largest <= 1 + rounding) return std::nullopt;
     return fmt::format(
-        "diffuse + specular is {}: no surface reflects more light than it receives. Allowed: at most 1 in "
-        "each channel.",
-        largest);
+        "{} is {}: no surface reflects more light than it receives. Allowed: at most 1 in each channel.",
+        shares, largest);
 }
 
 std::vector<std::string_view> type_names() {
@@ -100,20 +102,52 @@ SpecularBranches specular_branches(const Material& material, LightSide side, con
         material);
 }
 
+std::span<const Lobe> lobes(const Material& material, LightSide side, Carried carried) {
+    return visit_model(
+        [&]<typename M>(const M& model) -> std::span<const Lobe> {
+            if constexpr (Composed<M>) return model.lobes(side, carried);
+            return {};
+        },
+        material);
+}
+
+Rgb sent_on(const Material& material, double cosine) {
+    return visit_model(
+        [&]<typename M>(const M& model) {
+            if constexpr (requires { model.sent_on(cosine); }) {
+                return Rgb::grey(model.sent_on(cosine));
+            } else {
+                return model.reflectance_bound();
+            }
+        },
+        material);
+}
+
 bool transmits(const Material& material) {
+    const auto through = lobes(material, LightSide::outside, Carried::flux);
+    if (std::ranges::any_of(through,
+                            [](const Lobe& lobe) { return lobe.crosses || transmits(lobe.scattering); }))
+        return true;
     const auto branches = specular_branches(material, LightSide::outside, {0, 0, 1});
     return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
 }
 
 bool passes_straight(const Material& material) {
-    return visit_model([]<typename M>(const M&) { return PassesStraight<M>; }, material);
+    const auto of = lobes(material, LightSide::outside, Carried::flux);
+    return visit_model([]<typename M>(const M&) { return PassesStraight<M>; }, material) ||
+           std::ranges::any_of(of, passes_straight, &Lobe::scattering);
 }
 
 Rgb straight_transmittance(const Material& material, double cosine) {
     return visit_model(
         [&]<typename M>(const M& model) -> Rgb {
-            if constexpr (PassesStraight<M>) return model.straight_transmittance(cosine);
-            return {};
+            Rgb sum;
+            if constexpr (PassesStraight<M>) sum = model.straight_transmittance(cosine);
+            if constexpr (Composed<M>) {
+                for (const Lobe& lobe : model.lobes(LightSide::outside, Carried::flux))
+                    sum += straight_transmittance(lobe.scattering, cosine);
+            }
+            return sum;
         },
         material);
 }
@@ -121,8 +155,15 @@ Rgb straight_transmittance(const Material& material, double cosine) {
 double mean_concentration(const Material& material) {
     return visit_model(
         []<typename M>(const M& model) -> double {
-            if constexpr (Scattering<M>) return model.concentration();
-            return 0;
+            double largest = 0;
+            if constexpr (Scattering<M>) largest = model.concentration();
+            if constexpr (Composed<M>) {
+                for (const LightSide side : {LightSide::outside, LightSide::inside}) {
+                    for (const Lobe& lobe : model.lobes(side, Carried::flux))
+                        largest = std::max(largest, mean_concentration(lobe.scattering));
+                }
+            }
+            return largest;
         },
         material);
 }
@@ -132,8 +173,13 @@ Rgb reflectance_bound(const Material& material) {
 }
 
 Rgb stated_reflectance(const Material& material) {
-    if (!is_specular(material)) return reflectance_bound(material);
     Rgb sum;
+    const auto parts = lobes(material, LightSide::outside, Carried::flux);
+    for (const Lobe& lobe : parts) {
+        if (!lobe.crosses) sum += stated_reflectance(lobe.scattering);
+    }
+    if (!parts.empty()) return sum;
+    if (!is_specular(material)) return reflectance_bound(material);
     const SpecularBranches branches = specular_branches(material, LightSide::outside, {0, 0, 1});
     for (const SpecularBranch& branch : branches.list()) {
         if (branch.direction.z > 0) sum += branch.share;

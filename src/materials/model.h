@@ -1,7 +1,8 @@
 // The interface of material models: their parameters, listed once, and their reflection.
 //
-// A model is either Scattering (it has a BRDF, which connections evaluate and walks sample) or Specular
-// (light continues along a few directions, and nothing can be connected to it). Its parameters are its own
+// A model is either Scattering (it has a BRDF, which connections evaluate and walks sample), or Specular
+// (light continues along a few directions, and nothing can be connected to it), or Composed of lobes, each of
+// which is a material of one of the first two kinds. Its parameters are its own
 // members, or those of its `Parameters` where it keeps tables computed from them. Directions are unit
 // vectors in the local frame of the surface (Frame::of_surface), z along the normal on the side where light
 // arrives, and point away from the surface; models get only directions with z > 0.
@@ -25,7 +26,8 @@ inline constexpr Range kRoughness{0.001, 1, "from 0.001 to 1 (a mirror has type 
 inline constexpr Range kIor{1, 4, "from 1 to 4 (1.5 is common)"};
 
 /// The message where two shares of reflected light contradict each other.
-std::optional<std::string> contradiction_of_shares(const Rgb& diffuse, const Rgb& specular);
+std::optional<std::string> contradiction_of_shares(const Rgb& diffuse, const Rgb& specular,
+                                                   std::string_view shares = "diffuse + specular");
 
 /// BRDF, and the density of a direction, for one pair of directions.
 struct ScatterValue {
@@ -43,6 +45,10 @@ struct ScatterSample {
 /// The side from which light meets the surface: a solid's outside is where its normals point.
 enum class LightSide { outside, inside };
 
+/// The quantity carried by a path: luminance from the camera, or the flux of particles. Bent surfaces
+/// treat them differently, so that both give the same light.
+enum class Carried { luminance, flux };
+
 /// One branch of the light at a specular surface.
 struct SpecularBranch {
     Vec3 direction;  ///< unit, in the frame of `in`; below the surface for transmitted light
@@ -52,6 +58,8 @@ struct SpecularBranch {
     /// came: (n of the side of `in` / n of the side of `direction`)^2; 1 in reflection.
     double luminance_factor = 1;
 };
+
+struct Lobe;
 
 /// At most three branches, none of them dark.
 class SpecularBranches {
@@ -122,9 +130,15 @@ concept Specular = requires(const M& model, LightSide side, const Vec3& in) {
     { model.branches(side, in) } -> std::same_as<SpecularBranches>;
 };
 
+template <typename M>
+concept Composed = requires(const M& model, LightSide side, Carried carried) {
+    // As lobes() of material.h.
+    { model.lobes(side, carried) } -> std::same_as<std::span<const Lobe>>;
+};
+
 /// The interface of every alternative of Material.
 template <typename M>
-concept Model = Described<M> &&(Scattering<M> || Specular<M>)&&requires(const M& model) {
+concept Model = Described<M> &&(Scattering<M> || Specular<M> || Composed<M>)&&requires(const M& model) {
     // As the function of material.h.
     { model.reflectance_bound() } -> std::same_as<Rgb>;
 };

@@ -20,10 +20,6 @@ namespace stilb::materials {
 /// The largest ratio of the two cosines of a direction, which bounds the flux that single particles gain.
 inline constexpr double kMostBrightening = 2;
 
-/// The quantity carried by a path: luminance from the camera, or the flux of particles. Bent surfaces
-/// treat them differently, so that both give the same light.
-enum class Carried { luminance, flux };
-
 /// A direction mirrored to the front of its frame.
 inline Vec3 turned_to_front(const Vec3& v) { return {v.x, v.y, std::abs(v.z)}; }
 

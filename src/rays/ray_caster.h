@@ -42,6 +42,16 @@ struct Hit : SurfacePoint {
 
     /// The counterpart of `lifted` on the other side.
     Vec3 lifted_behind() const { return lifted - 2 * lift_m * normal; }
+    /// The same place on the other side.
+    Hit behind() const {
+        Hit result = *this;
+        result.lifted = lifted_behind();
+        result.normal = -normal, result.shading_normal = -shading_normal;
+        result.on_front = !on_front;
+        return result;
+    }
+    /// A direction, mirrored at the surface.
+    Vec3 mirrored(const Vec3& direction) const { return direction - 2 * dot(direction, normal) * normal; }
 };
 
 /// A surface that a ray crosses.

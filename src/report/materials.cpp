@@ -20,19 +20,29 @@ namespace {
 
 std::string number_text(double value) { return fmt::format("{:.3g}", value); }
 std::string number_text(const Rgb& value) { return number_text(value.luminance()); }
+std::string number_text(bool value) { return value ? "yes" : "no"; }
+std::string number_text(const materials::SharesByAngle& value) {
+    return value.is_given() ? number_text(value.rows[0].share) + (value.is_along_normal() ? "" : " by angle")
+                            : "";
+}
 std::string number_text(const std::array<double, 2>& values) {
     return fmt::format("{} × {}", number_text(values[0]), number_text(values[1]));
 }
 
+template <typename Value>
+bool is_given(const Value&) {
+    return true;
+}
+bool is_given(const materials::SharesByAngle& value) { return value.is_given(); }
 /// "diffuse 0.45, exponent 40", but for the reflectance, which has a column of its own.
 std::string parameters_text(const Material& material) {
     return materials::visit_model(
         []<typename Model>(const Model& model) {
             std::string text;
             for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
-                if (field.key == "reflectance") return;
-                text += fmt::format("{}{} {}", text.empty() ? "" : ", ", field.key,
-                                    number_text(materials::parameters_of(model).*field.member));
+                const auto& value = materials::parameters_of(model).*field.member;
+                if (field.key == "reflectance" || !is_given(value)) return;
+                text += fmt::format("{}{} {}", text.empty() ? "" : ", ", field.key, number_text(value));
             });
             return text;
         },

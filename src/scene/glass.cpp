@@ -10,8 +10,7 @@
 #include <utility>
 
 #include "base/names.h"
-#include "materials/dielectric.h"
-#include "materials/thin_dielectric.h"
+#include "materials/solid.h"
 #include "scene/glass_bodies.h"
 #include "scene/instances.h"
 
@@ -148,7 +147,9 @@ class GlassSettler {
     template <typename Replace>
     void for_each_material(const Part& part, const Replace& replace) {
         Object& object = scene_.objects[index_of(part.object)];
-        const auto is_glass = [&](MaterialId id) { return scene_.material(id).is<Dielectric>(); };
+        const auto is_glass = [&](MaterialId id) {
+            return materials::solid_ior(scene_.material(id)).has_value();
+        };
         const Mesh* mesh = geometry::stored_mesh(object.shape);
         const std::size_t count = mesh ? mesh->triangles.size() : part.triangles->size();
         if (object.materials.size() == 1 && part.triangles->size() == count) {
@@ -164,19 +165,18 @@ class GlassSettler {
     }
 
     MaterialId between(MaterialId id, double front, double back) {
-        const Dielectric wanted{back, front};
-        const auto& now = *scene_.material(id).get_if<Dielectric>();
-        if (now.ior == wanted.ior && now.outside_ior == wanted.outside_ior) return id;
+        const Material& now = scene_.material(id);
+        if (materials::solid_ior(now) == back && materials::outside_ior(now) == front) return id;
         return derived({index_of(id), front, back}, [&] {
             return NamedMaterial{
                 fmt::format("{} (in a medium of ior {:g})", scene_.materials[index_of(id)].name, front),
-                wanted};
+                materials::between_media(scene_.material(id), back, front)};
         });
     }
     MaterialId sheet_of(MaterialId id) {
-        const double ior = scene_.material(id).get_if<Dielectric>()->ior;
         return derived({index_of(id), 0, 0}, [&] {
-            return NamedMaterial{scene_.materials[index_of(id)].name + " (a sheet)", ThinDielectric{ior}};
+            return NamedMaterial{scene_.materials[index_of(id)].name + " (a sheet)",
+                                 materials::sheet_of(scene_.material(id))};
         });
     }
     template <typename Make>
@@ -231,8 +231,9 @@ class GlassSettler {
 }  // namespace
 
 std::vector<std::string> settle_glass(Scene& scene) {
-    const bool has_glass = std::ranges::any_of(
-        scene.materials, [](const NamedMaterial& material) { return material.material.is<Dielectric>(); });
+    const bool has_glass = std::ranges::any_of(scene.materials, [](const NamedMaterial& named) {
+        return materials::solid_ior(named.material).has_value();
+    });
     if (!has_glass) return {};
     return GlassSettler(scene).run();
 }

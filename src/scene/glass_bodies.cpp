@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "geometry/mesh_topology.h"
-#include "materials/dielectric.h"
+#include "materials/solid.h"
 
 namespace stilb::scene {
 namespace {
@@ -137,7 +137,7 @@ class GlassSearch {
         const Mesh* mesh = geometry::stored_mesh(object.shape);
         if (!mesh) return is_glass(0) ? add_simple(id) : void();
         if (std::ranges::none_of(object.materials, [&](MaterialId material) {
-                return scene_.material(material).is<Dielectric>();
+                return materials::solid_ior(scene_.material(material)).has_value();
             }))
             return;
         for (const Component& component : components_of_stored(*mesh)) {
@@ -281,8 +281,7 @@ std::vector<Vec3> points_of(const Shape& shape) {
 
 double glass_ior(const Scene& scene, const Object& object, std::uint32_t triangle) {
     const MaterialId id = object.materials.size() > 1 ? object.materials[triangle] : object.materials[0];
-    const auto* glass = scene.material(id).get_if<Dielectric>();
-    return glass ? glass->ior : 0;
+    return materials::solid_ior(scene.material(id)).value_or(0);
 }
 
 GlassBodies find_glass_bodies(const Scene& scene) { return GlassSearch(scene).run(); }

@@ -13,7 +13,7 @@
 #include "base/rays.h"
 #include "base/vec.h"
 #include "geometry/mesh_topology.h"
-#include "materials/dielectric.h"
+#include "materials/solid.h"
 #include "scene/instances.h"
 
 namespace stilb::scene {
@@ -242,7 +242,7 @@ class OverlapSearch {
         const auto look_at = [&](MaterialId material) {
             // Of two bodies of glass each face counts, even if they have one material.
             const bool is_glass =
-                of_ == OverlapsOf::all_surfaces && scene.material(material).is<Dielectric>();
+                of_ == OverlapsOf::all_surfaces && materials::solid_ior(scene.material(material)).has_value();
             return look_of(material, is_lamp || is_glass ? index + 1 : 0);
         };
         std::uint32_t look = look_at(object.materials[0]);

@@ -5,16 +5,14 @@
 
 #include "geometry/bounds_tree.h"
 #include "geometry/mesh_topology.h"
-#include "materials/mirror.h"
+#include "materials/material.h"
 
 namespace stilb::scene {
 namespace {
 
 bool is_opaque(const Scene& scene, const Object& object) {
-    return std::ranges::none_of(object.materials, [&](MaterialId id) {
-        const Material& material = scene.material(id);
-        return is_specular(material) && !material.is<Mirror>();
-    });
+    return std::ranges::none_of(object.materials,
+                                [&](MaterialId id) { return transmits(scene.material(id)); });
 }
 
 /// Six times the volume that a mesh encloses; negative where its fronts look inwards.

@@ -2,6 +2,7 @@
 
 #include "materials/shaded_surface.h"
 #include "transport/line_of_sight.h"
+#include "transport/lobe_choice.h"
 #include "transport/weights.h"
 
 namespace stilb::transport {
@@ -16,30 +17,38 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
     bool only_by_light = false;
     int reflections = 0;
     while (reflections < max_nodes) {
-        const auto hit = caster.closest(origin, direction);
+        auto hit = caster.closest(origin, direction);
         if (!hit) return;
-        const Material& material = scene.material(hit->material);
+        Vec3 from = -direction;
+        const auto scattering =
+            choose_scattering(scene.material(hit->material), *hit, from, Carried::flux, stream);
+        if (!scattering) return;
+        const Material& material = *scattering->material;
+        flux *= scattering->weight;
         if (is_specular(material)) {
-            const auto branch = choose_specular_ray(material, *hit, -direction, Carried::flux, stream.next());
+            const auto branch = choose_specular_ray(material, *hit, from, Carried::flux, stream.next());
             if (branch && !branch->straight) {
                 if (reflections == 0) only_by_light = particle.from_point;
                 ++reflections;
             }
-            const double survival = branch ? survival_probability(flux, branch->share) : 0;
+            const double survival =
+                branch ? survival_probability(flux, scattering->lobe ? scattering->sent_on : branch->share)
+                       : 0;
             if (stream.next() >= survival) return;
             flux *= branch->share * (1 / survival);
             origin = branch->origin;
             direction = branch->direction;
             continue;
         }
-        const double survival = survival_probability(flux, reflectance_bound(material));
+        const double survival =
+            survival_probability(flux, scattering->lobe ? scattering->sent_on : reflectance_bound(material));
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
-        nodes.push_back({*hit, hit->shading_normal, -direction, &material, flux, ++reflections, only_by_light,
+        nodes.push_back({*hit, hit->shading_normal, from, &material, flux, ++reflections, only_by_light,
                          particle.favour, 1, particle.light});
         const materials::ShadedSurface surface(material, hit->normal, hit->shading_normal);
         const auto [u1, u2] = stream.next_two();
-        const auto scattered = surface.sample_outgoing(surface.frame().to_local(-direction), u1, u2);
+        const auto scattered = surface.sample_outgoing(surface.frame().to_local(from), u1, u2);
         if (!scattered) return;
         flux *= scattered->weight;
         direction = surface.frame().to_world(scattered->direction);

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "sensors/place.h"
+#include "transport/lobe_choice.h"
 
 namespace stilb::transport {
 
@@ -33,11 +34,24 @@ class LineOfSightFollower {
             add(transmission * luminance, light, reflections);
         });
         const Material& material = scene_.material(hit.material);
-        if (!is_specular(material)) {
-            sight.sub_points.push_back({hit, -direction, transmission, reflections});
+        const std::span<const materials::Lobe> lobes = lobes_at(hit, material, Carried::luminance);
+        if (lobes.empty()) return follow(material, {hit, -direction, transmission, reflections});
+        for (const materials::Lobe& lobe : lobes) {
+            SubPoint point{hit, -direction, transmission * lobe.factor(Carried::luminance), reflections,
+                           &lobe};
+            cross(lobe, point.surface, point.outgoing);
+            follow(lobe.scattering, point);
+        }
+    }
+
+    /// `scattering`: of the point, its material or its lobe.
+    void follow(const Material& scattering, const SubPoint& point) {
+        if (!is_specular(scattering)) {
+            sight.sub_points.push_back(point);
             return;
         }
-        for (const SpecularRay& branch : specular_rays(material, hit, -direction)) {
+        const auto& [hit, outgoing, transmission, reflections, lobe] = point;
+        for (const SpecularRay& branch : specular_rays(scattering, hit, outgoing)) {
             const int met = reflections + (branch.straight ? 0 : 1);
             if (met > max_reflections_) {
                 if (!sight.end) sight.end = hit.position;

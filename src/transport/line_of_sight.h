@@ -13,11 +13,13 @@ namespace stilb::transport {
 
 /// A visible surface point, possibly seen through mirrors and glass: z of double local estimation.
 struct SubPoint {
-    rays::Hit surface;  ///< not specular
-    Vec3 outgoing;      ///< unit, in which light leaves it towards the sensor
+    rays::Hit surface;  ///< not specular; where light arrives
+    Vec3 outgoing;      ///< unit, in which light leaves it towards the sensor; as a lobe takes it
     /// The transmittance of mirrors and glass between it and the sensor.
     Rgb transmission = Rgb::grey(1);
     int reflections = 0;  ///< and passages of glass, between it and the sensor
+    /// By which the surface scatters light; null where its material is not composed.
+    const materials::Lobe* lobe = nullptr;
 };
 
 /// A specular branch that is not followed because it carries too little light.

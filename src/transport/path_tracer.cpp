@@ -31,6 +31,16 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
     }
 }
 
+namespace {
+
+/// `factor`: of the path's next step where its material is not composed.
+double survival_probability(const Path& path, const Rgb& factor, const Scattering& scattering) {
+    if (!scattering.lobe) return patient_survival_probability(path.throughput, factor);
+    return patient_survival_probability(path.throughput * (1 / scattering.weight), scattering.sent_on);
+}
+
+}  // namespace
+
 void PathTracer::trace(std::span<Path> paths, rays::Coherence first) const {
     if (paths.empty()) return;
     std::vector<Rgb> luminances_cd_m2(paths.size());
@@ -60,26 +70,40 @@ void PathTracer::follow(Path& path) const {
     }
 }
 
-bool PathTracer::follow_to_scattering(Path& path) const {
-    while (is_specular(material(path.hit))) {
-        const Step step = take_step(path);
-        if (!step.ray) return false;
-        const auto next = caster_.closest(step.ray->origin, step.ray->direction);
-        if (!next) {
-            leave(path, step.ray->direction);
-            return false;
-        }
-        arrive(path, step.ray->direction, *next);
+std::optional<Scattering> PathTracer::follow_to_scattering(Path& path) const {
+    for (;;) {
+        const auto scattering = choose_scattering(path);
+        if (!scattering || !is_specular(*scattering->material)) return scattering;
+        if (!pass(path, *scattering)) return std::nullopt;
     }
-    return true;
+}
+
+bool PathTracer::pass(Path& path, const Scattering& specular) const {
+    const auto ray = pass_specular(path, specular);
+    if (!ray) return false;
+    const auto next = caster_.closest(ray->origin, ray->direction);
+    if (next) {
+        arrive(path, ray->direction, *next);
+    } else {
+        leave(path, ray->direction);
+    }
+    return next.has_value();
+}
+
+std::optional<Scattering> PathTracer::choose_scattering(Path& path) const {
+    const auto scattering = transport::choose_scattering(material(path.hit), path.hit, path.outgoing,
+                                                         Carried::luminance, path.stream);
+    if (scattering) path.throughput *= scattering->weight;
+    return scattering;
 }
 
 PathTracer::Step PathTracer::take_step(Path& path) const {
-    const Material& material = this->material(path.hit);
-    if (is_specular(material)) return {std::nullopt, pass_specular(path, material)};
+    const auto scattering = choose_scattering(path);
+    if (!scattering) return {};
+    if (is_specular(*scattering->material)) return {std::nullopt, pass_specular(path, *scattering)};
     if (path.reflections_left == 0) return {};
     --path.reflections_left, ++path.reflections;
-    return reflect(path, material);
+    return reflect(path, *scattering);
 }
 
 void PathTracer::add_stored_reflection(std::span<Path> paths, rays::Coherence coherence) const {
@@ -91,10 +115,10 @@ void PathTracer::add_stored_reflection(std::span<Path> paths, rays::Coherence co
     stored_->add_to(reflecting, coherence);
 }
 
-std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& material) const {
-    const auto branch =
-        choose_specular_ray(material, path.hit, path.outgoing, Carried::luminance, path.stream.next());
-    const double survival = branch ? patient_survival_probability(path.throughput, branch->share) : 0;
+std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Scattering& specular) const {
+    const auto branch = choose_specular_ray(*specular.material, path.hit, path.outgoing, Carried::luminance,
+                                            path.stream.next());
+    const double survival = branch ? survival_probability(path, branch->share, specular) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
     path.throughput *= branch->share * (branch->luminance_factor / survival);
     if (!branch->straight) {
@@ -105,10 +129,10 @@ std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Material& m
     return rays::Ray{branch->origin, branch->direction};
 }
 
-PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const {
+PathTracer::Step PathTracer::reflect(Path& path, const Scattering& scattering) const {
     Step step;
     const rays::Hit& hit = path.hit;
-    const materials::ShadedSurface surface(material, hit.normal, hit.shading_normal);
+    const materials::ShadedSurface surface(*scattering.material, hit.normal, hit.shading_normal);
     const Frame& frame = surface.frame();
     const Vec3 out = frame.to_local(path.outgoing);
     const auto light = lights_.sample_one_light(hit, path.stream);
@@ -120,7 +144,7 @@ PathTracer::Step PathTracer::reflect(Path& path, const Material& material) const
                            path.throughput * brdf_per_sr * (in.z * weight) * light->normal_illuminance_lx,
                            light->light};
     }
-    const double survival = patient_survival_probability(path.throughput, reflectance_bound(material));
+    const double survival = survival_probability(path, reflectance_bound(*scattering.material), scattering);
     if (path.stream.next() >= survival) return step;
     const auto [u1, u2] = path.stream.next_two();
     const auto scattered = surface.sample_incoming(out, u1, u2);

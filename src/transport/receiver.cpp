@@ -48,10 +48,11 @@ Receiver::Receiver(std::uint32_t reading, const BodyPoint& body, const rays::Ray
 Receiver::Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material)
     : point_(sub_point.surface),
       lift_(sub_point.surface.lift_m * sub_point.surface.normal),
-      surface_(material, point_.normal, sub_point.surface.shading_normal),
+      surface_(sub_point.lobe ? sub_point.lobe->scattering : material, point_.normal,
+               sub_point.surface.shading_normal),
       outgoing_(surface_.frame().to_local(sub_point.outgoing)),
       factor_(sub_point.transmission),
-      material_(sub_point.surface.material),
+      material_(sub_point.lobe ? std::nullopt : std::optional(sub_point.surface.material)),
       reflections_(sub_point.reflections + 1),
       reading_(reading) {
     set_constant_response();

@@ -33,7 +33,7 @@ class Receiver {
     /// A receiver of illuminance.
     Receiver(std::uint32_t reading, const MeasuringPoint& point, const rays::RayCaster& caster);
     Receiver(std::uint32_t reading, const BodyPoint& body, const rays::RayCaster& caster);
-    /// A receiver of luminance. `material`: of the sub-point, not specular.
+    /// A receiver of luminance. `material`: of the sub-point, not specular, or composed.
     Receiver(std::uint32_t reading, const SubPoint& sub_point, const Material& material);
 
     std::uint32_t reading() const { return reading_; }
@@ -76,7 +76,7 @@ class Receiver {
 
     /// The point with the response of its illuminance.
     Receiver without_response() const;
-    /// The surface's material in the scene; nothing for illuminance.
+    /// The surface's material in the scene; nothing for illuminance, and for lobes of a material.
     std::optional<MaterialId> material() const { return material_; }
     /// Whether the surface's shading normal differs from its own.
     bool is_bent() const { return surface_.is_bent(); }

@@ -3,11 +3,13 @@
 #include "materials/black.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
+#include "materials/frosted.h"
 #include "materials/mirror.h"
 #include "materials/phong.h"
 #include "materials/plastic.h"
 #include "materials/rough_conductor.h"
 #include "materials/thin_dielectric.h"
+#include "materials/translucent.h"
 #include "materials/ward.h"
 #include "support/harmonic_shapes.h"
 #include "support/scene_builder.h"
@@ -295,6 +297,30 @@ Scene mixed_room() {
     return scene;
 }
 
+/// A sheet that divides a part of the room, and a shade around a lamp.
+Scene translucent_things() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, Rectangle{{0.5, 1, 2.79}, {0, 0.6, 0}, {0.6, 0, 0}}, 500 * kWhite);
+    add_object(scene, Rectangle{{1.6, 0, 0.2}, {0, 2.2, 0}, {0.2, 0, 2}},
+               materials::Translucent({{{0.3, 0.4, 0.2}}, {{0.4, 0.3, 0.5}}, Rgb::grey(0.1)}));
+    add_object(scene, Box{{2.8, 1.8, 1.5}, {3.1, 2.1, 1.9}},
+               materials::Translucent({Rgb::grey(0.5), Rgb::grey(0.45), {}}));
+    add_point_light(scene, {2.95, 1.95, 1.7}, 60 * kWhite);
+    return scene;
+}
+
+/// A frosted sheet before a lamp, and a frosted block on a table of the same height as the measured points.
+Scene frosted_things() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, Rectangle{{0.5, 1, 2.79}, {0, 0.6, 0}, {0.6, 0, 0}}, 500 * kWhite);
+    add_object(scene, Rectangle{{0.2, 0.7, 2.4}, {0, 1.2, 0}, {1.2, 0, 0}},
+               materials::Frosted({1.5, 0.3, true}));
+    add_object(scene, Box{{2.6, 1.7, 0.6}, {3.1, 2.2, 1.1}}, materials::Frosted({1.5, 0.4}));
+    return scene;
+}
+
 /// The wall towards -y has a window, 3.4 m wide and 2 m high.
 void add_room_with_window(Scene& scene, const Material& matt, const Material& floor) {
     const auto add_part = [&](double x, double z, double width, double height) {
@@ -485,6 +511,9 @@ std::span<const AgreementScene> agreement_scenes() {
         {"TwoReflections", nothing, 2, mixed_room, inside, {}},
         {"OnlyDiffuseTwice", nothing, 2, closed_box, inside, {}},
         {"RoughMetal", nothing, {}, rough_box, inside, {}},
+        {"Translucent", nothing, {}, translucent_things, inside, {}, {}, 1, 3},
+        {"Frosted", finite_variance, {}, frosted_things, inside, around, {}, 1, 8},
+        {"TranslucentTwoReflections", nothing, 2, translucent_things, inside, around, {}, 1, 4},
         {"BrushedWard", nothing, {}, ward_box, inside, {}},
         {"Plastic", nothing, {}, plastic_box, inside, {}},
         {"LuminanceInAClosedBox", nothing, {}, closed_box, inside, around},
@@ -496,6 +525,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"LuminanceOfRoughMetal", nothing, {}, rough_box, {}, around},
         {"LuminanceOfWard", finite_variance, {}, ward_box, {}, around},
         {"LuminanceOfPlastic", nothing, {}, plastic_box, {}, around},
+        {"LuminanceOfTranslucent", finite_variance, {}, translucent_things, {}, around, {}, 1, 3},
         {"SphereOverPhong", nothing, {}, sphere_over_phong, {}, at_the_table},
         {"SphereOverSmoothMetal", finite_variance, {}, sphere_over_smooth_metal, {}, at_the_table},
         {"SphereOverPlastic", finite_variance, {}, sphere_over_plastic, {}, at_the_table},

@@ -7,6 +7,7 @@
 #include "materials/mirror.h"
 #include "materials/plastic.h"
 #include "materials/thin_dielectric.h"
+#include "materials/translucent.h"
 #include "materials/ward.h"
 #include "radiance_text.h"
 
@@ -114,18 +115,26 @@ TEST(RadianceMaterials, MirrorsMayBeSeenAsAnotherMaterial) {
     expect_bands(model_of<Diffuse>(other).reflectance, Rgb::grey(.5));
 }
 
-TEST(RadianceMaterials, TransKeepsItsReflectionAndWarnsOfTheLostLight) {
+TEST(RadianceMaterials, TransIsTranslucent) {
+    const auto paper = model_of<materials::Translucent>("void trans m 0 0 7 .5 .6 .7 0 0 .4 .25");
+    const Rgb color{{.5, .6, .7}};
+    expect_bands(paper.parameters().reflectance, .6 * color);
+    expect_bands(paper.parameters().transmittance, .4 * .75 * color);
+    expect_bands(paper.parameters().specular_transmittance, .4 * .25 * color);
     const ReadMaterial curtain = read_radiance_material("void trans m 0 0 7 .5 .5 .5 .1 .2 .4 .25");
-    const auto ward = *curtain.material.get_if<materials::Ward>();
-    expect_bands(ward.parameters().diffuse, Rgb::grey(.5 * .9 * .6));
-    expect_bands(ward.parameters().specular, Rgb::grey(.1));
-    EXPECT_EQ(curtain.warnings, (std::vector<std::string>{
-                                    "trans m: Stilb's surfaces transmit no scattered light: 18.0 % of the "
-                                    "light, which it transmits in Radiance, are lost. Its reflection is "
-                                    "kept."}));
-    const auto veil = model_of<materials::ThinDielectric>("void trans m 0 0 7 .5 .5 .5 0 0 1 1");
-    EXPECT_EQ(veil.ior, 1);
-    expect_bands(veil.shares(1).transmittance, Rgb::grey(.5));
+    const auto rough = curtain.material.get_if<materials::Translucent>()->parameters();
+    expect_bands(rough.reflectance, Rgb::grey(.5 * .9 * .6 + .1));
+    expect_bands(rough.transmittance, Rgb::grey(.5 * .9 * .4));
+    expect_bands(rough.specular_transmittance, {});
+    EXPECT_EQ(
+        curtain.warnings,
+        (std::vector<std::string>{
+            "trans m: its gloss, 10.0 % of the light, is reflected in all directions.",
+            "trans m: the light that its roughness spreads a little, as it lets it through, goes in all "
+            "directions."}));
+    const auto veil = model_of<materials::Translucent>("void trans m 0 0 7 .5 .5 .5 0 0 1 1");
+    expect_bands(veil.parameters().specular_transmittance, Rgb::grey(.5));
+    expect_bands(veil.reflectance_bound(), Rgb::grey(.5));
     EXPECT_TRUE(read_radiance_material("void trans m 0 0 7 .5 .5 .5 0 0 0 0").warnings.empty());
 }
 

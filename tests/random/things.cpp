@@ -26,10 +26,36 @@ void add_tetrahedron(Draft& draft, const std::string& material, const Vec3& cent
         .set("faces", faces({{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}));
 }
 
+/// Glass, smooth or frosted: of a solid, or a sheet.
 std::string add_clear_material(Draft& draft, Draw& draw, bool is_solid) {
-    Part& material = draft.add_material(is_solid ? "glass" : "pane").set("ior", number(draw.between(1.1, 2)));
+    const double ior = draw.between(1.1, 2);
+    if (draw.chance(0.3)) {
+        Part& frosted = draft.add_material("frosted")
+                            .set("ior", number(ior))
+                            .set("roughness", number(draw.between(0.3, 1)));
+        if (!is_solid) frosted.set("thin", {true});
+        return frosted.name;
+    }
+    Part& material = draft.add_material(is_solid ? "glass" : "pane").set("ior", number(ior));
     if (!is_solid) material.set("internal_transmittance", number(draw.between(0.5, 1)));
     return material.name;
+}
+
+/// Thin, whatever the shape: of a closed one they are its shell.
+std::string add_sheet_material(Draft& draft, Draw& draw) {
+    if (draw.chance(0.3)) {
+        const double share = draw.between(0.3, 0.8);
+        return draft.add_material("glazing")
+            .set("transmittance", number(share))
+            .set("reflectance", number(draw.between(0.05, 1 - share)))
+            .set("back_reflectance", number(draw.between(0.05, 1 - share)))
+            .name;
+    }
+    return draft.add_material("translucent")
+        .set("reflectance", colour(draw, 0.1, 0.4))
+        .set("transmittance", colour(draw, 0.1, 0.4))
+        .set("specular_transmittance", number(draw.chance(0.5) ? 0 : draw.between(0, 0.2)))
+        .name;
 }
 
 void add_thing(Draft& draft, Draw& draw, const Site& site) {
@@ -38,8 +64,9 @@ void add_thing(Draft& draft, Draw& draw, const Site& site) {
     const Vec3 center = draw.inside(site.low + 1.3 * margin, site.high - 1.3 * margin);
     const std::size_t shape = draw.weighted({3, 3, 2, 2, 2, 1});
     const bool is_solid = shape != 2 && shape != 3;
-    const std::string material =
-        draw.chance(0.06) ? add_clear_material(draft, draw, is_solid) : add_material(draft, draw);
+    const std::string material = draw.chance(0.06)   ? add_clear_material(draft, draw, is_solid)
+                                 : draw.chance(0.06) ? add_sheet_material(draft, draw)
+                                                     : add_material(draft, draw);
     switch (shape) {
         case 0:
             draft.add_object("box", material)

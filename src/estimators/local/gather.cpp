@@ -18,11 +18,16 @@ constexpr int kBeams = 2;
 /// A point y that a ray has met, and the receivers of the ray's packet that may see it. Keeps references.
 class SharedPoint {
   public:
-    /// Light for receivers that are farther from their sensors may have met fewer surfaces: only receivers
-    /// with the same count as `own` share.
-    SharedPoint(const rays::Hit& hit, const Material& material, const PointTile& tile, std::size_t own,
-                const Vec3& center)
-        : surface_(material, hit.normal, hit.shading_normal), position_(hit.position), tile_(tile) {
+    /// `from`: the place where light arrives, by the scattering of a path that has met `hit`. Light for
+    /// receivers that are farther from their sensors may have met fewer surfaces: only receivers with the
+    /// same count as `own` share.
+    SharedPoint(const rays::Hit& hit, const rays::Hit& from, const transport::Scattering& scattering,
+                const PointTile& tile, std::size_t own, const Vec3& center)
+        : surface_(*scattering.material, from.normal, from.shading_normal),
+          sent_on_(scattering.lobe ? scattering.sent_on : reflectance_bound(*scattering.material)),
+          met_(hit),
+          crosses_(from.on_front != hit.on_front),
+          tile_(tile) {
         // There is at least one reflection, at y.
         connect(SegmentOrigin(hit, center), 1, tile, segments_, lanes_, g_per_m2_);
         for_each_lane([&](std::size_t i) {
@@ -68,8 +73,7 @@ class SharedPoint {
         double weight = 0;   ///< 1 / probability of having survived
     };
     std::optional<Beam> sample_beam(std::size_t lane, math::SampleStream& stream) const {
-        const double survival =
-            transport::survival_probability(Rgb::grey(1), reflectance_bound(surface_.material()));
+        const double survival = transport::survival_probability(Rgb::grey(1), sent_on_);
         if (stream.next() >= survival) return std::nullopt;
         const auto [u1, u2] = stream.next_two();
         const auto scattered = surface_.sample_incoming(out_[lane], u1, u2);
@@ -140,18 +144,20 @@ class SharedPoint {
 
     void join(std::size_t i) {
         const Vec3 segment = towards_receiver(i);
-        out_[i] = surface_.frame().to_local(segment);
+        out_[i] = surface_.frame().to_local(crosses_ ? met_.mirrored(segment) : segment);
         const transport::Receiver& receiver = tile_.receivers[i];
         if (receiver.constant_response()) {
             ray_density_per_m2_[i] = double{g_per_m2_[i]} / kPi;
             return;
         }
-        const double squared_distance = squared_length(receiver.position() - position_);
+        const double squared_distance = squared_length(receiver.position() - met_.position);
         ray_density_per_m2_[i] = receiver.pdf_per_sr(-segment) * out_[i].z / squared_distance;
     }
 
-    materials::ShadedSurface surface_;
-    Vec3 position_;
+    materials::ShadedSurface surface_;  ///< on the side where light arrives
+    Rgb sent_on_;
+    const rays::Hit& met_;  ///< on that of the receivers
+    bool crosses_;
     const PointTile& tile_;
     RayPacket segments_;
     LaneMask lanes_;
@@ -185,7 +191,14 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
         if (!sample) continue;
         const auto hit = caster_.closest(receiver.lifted(), sample->direction);
         if (!hit) continue;
-        if (is_specular(tracer_.material(*hit))) {
+        // A number is looked at only: path tracing chooses the same.
+        math::SampleStream next = stream;
+        rays::Hit from = *hit;
+        Vec3 back = -sample->direction;
+        const auto scattering = transport::choose_scattering(tracer_.material(*hit), from, back,
+                                                             transport::Carried::luminance, next);
+        if (!scattering) continue;
+        if (is_specular(*scattering->material)) {
             transport::LightParts parts;
             const Rgb luminance = tracer_.luminance_without_direct(
                 *hit, sample->direction, tile.reflections_left[i], stream, channels_ ? &parts : nullptr);
@@ -194,21 +207,23 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
                 channels_->add(parts, weight * sample->weight, receiver.reflections(), receiver.reading(),
                                sums.parts);
         } else {
-            share_out(*hit, tile, i, stream, weight, sums);
+            share_out(*hit, from, *scattering, tile, i, next, weight, sums);
         }
     }
 }
 
-void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t own,
-                       math::SampleStream& stream, double weight, Tally& sums) const {
-    SharedPoint shared(hit, tracer_.material(hit), tile, own, caster_.center());
+void Gather::share_out(const rays::Hit& hit, const rays::Hit& from, const transport::Scattering& scattering,
+                       const PointTile& tile, std::size_t own, math::SampleStream& stream, double weight,
+                       Tally& sums) const {
+    SharedPoint shared(hit, from, scattering, tile, own, caster_.center());
     if (!shared.reaches(own)) return;
+    weight *= scattering.weight;
     const double survival = shared.gathered_share();
     if (stream.next() >= survival) return;
     weight /= survival;
     shared.keep_visible(caster_, own);
     const double ray_density = shared.ray_density();
-    if (const auto light = tracer_.sample_light(hit, stream)) {
+    if (const auto light = tracer_.sample_light(from, stream)) {
         // BRDF samples may hit emitters, too; the balance heuristic weights both techniques.
         const double light_density = light->pdf_per_sr * ray_density;
         const double share =
@@ -223,11 +238,11 @@ void Gather::share_out(const rays::Hit& hit, const PointTile& tile, std::size_t 
     for (int i = 0; i < kBeams; ++i) {
         const auto beam = shared.sample_beam(own, stream);
         if (!beam) continue;
-        const transport::PreviousVertex previous_vertex{kBeams * beam->density / ray_density, hit.position,
-                                                        hit.normal};
+        const transport::PreviousVertex previous_vertex{kBeams * beam->density / ray_density, from.position,
+                                                        from.normal};
         transport::LightParts parts;
         const Rgb luminance =
-            tracer_.incoming_luminance({hit.lifted, beam->direction}, previous_vertex,
+            tracer_.incoming_luminance({from.lifted, beam->direction}, previous_vertex,
                                        tile.reflections_left[own] - 1, stream, channels_ ? &parts : nullptr);
         const double of_beam = weight * beam->weight / (kBeams * beam->density);
         shared.reflect(beam->direction, luminance * of_beam, parts, of_beam, channels_, sums);

@@ -22,7 +22,7 @@ struct LocalTransport {
           caster(problem.caster),
           max_reflections(problem.max_reflections),
           split(asked),
-          gathers(split == Split::balanced || has_specular_surfaces(scene)),
+          gathers(split == Split::balanced || has_specular_surfaces(scene) || caster.has_panes()),
           lights(scene, caster),
           tracer(scene, caster, lights),
           direct(scene, caster, lights),

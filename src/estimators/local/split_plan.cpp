@@ -169,12 +169,19 @@ RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTrace
         const Vec3& direction = sample->direction;
         const auto hit = caster.closest(receiver.lifted(), direction);
         if (!hit) continue;
-        if (is_specular(tracer.material(*hit))) {
+        // A number is looked at only: path tracing chooses the same.
+        math::SampleStream next = stream;
+        rays::Hit from = *hit;
+        Vec3 back = -direction;
+        const auto scattering = transport::choose_scattering(tracer.material(*hit), from, back,
+                                                             transport::Carried::luminance, next);
+        if (!scattering) continue;
+        if (is_specular(*scattering->material)) {
             rays[i].g_per_m2 = std::numeric_limits<double>::infinity();
         } else {
             const double cosines = receiver.sensitivity(direction) * -dot(hit->normal, direction);
             rays[i].g_per_m2 = cosines / (hit->distance_m * hit->distance_m) *
-                               mean_concentration(tracer.material(*hit)) *
+                               mean_concentration(*scattering->material) *
                                receiver.response(direction).relative;
             rays[i].own_share = own_share(caster, *hit, packet, lane);
         }

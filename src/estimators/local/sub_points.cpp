@@ -130,13 +130,14 @@ void SubPoints::add_direct(const SubPointPacket& packet, const Pass& pass, Tally
 
 Rgb SubPoints::add(transport::Path& path, std::uint32_t reading,
                    std::vector<transport::Receiver>& receivers) const {
-    const bool meets_surface = transport_.tracer.follow_to_scattering(path);
+    const auto scattering = transport_.tracer.follow_to_scattering(path);
     const Rgb emission = path.luminance_cd_m2;
-    if (!meets_surface || path.reflections_left == 0) return emission;
-    receivers.emplace_back(reading,
-                           transport::SubPoint{path.hit, path.outgoing, path.throughput,
-                                               tracing_.max_reflections - path.reflections_left},
-                           tracing_.scene.material(path.hit.material));
+    if (!scattering || path.reflections_left == 0) return emission;
+    receivers.emplace_back(
+        reading,
+        transport::SubPoint{path.hit, path.outgoing, path.throughput,
+                            tracing_.max_reflections - path.reflections_left, scattering->lobe},
+        tracing_.scene.material(path.hit.material));
     return emission;
 }
 

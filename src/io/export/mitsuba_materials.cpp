@@ -40,7 +40,7 @@ struct MitsubaMaterial {
     template <typename Model>
     std::string operator()(const Model& m) const {
         warn(no_equal(Model::kType, "Mitsuba", "a diffuse surface that reflects as much stands for it"));
-        return two_sided(id, "diffuse", color("reflectance", m.reflectance_bound()));
+        return two_sided(id, "diffuse", color("reflectance", stated_reflectance(Material(m))));
     }
     std::string operator()(const Diffuse& m) const {
         return two_sided(id, "diffuse", color("reflectance", m.reflectance));
@@ -82,6 +82,17 @@ struct MitsubaMaterial {
     }
     std::string operator()(const materials::Dielectric& m) const {
         return dielectric("dielectric", m.ior, m.outside_ior, "");
+    }
+    std::string operator()(const materials::Frosted& m) const {
+        if (m.parameters().thin) {
+            warn(no_equal("frosted and thin", "Mitsuba",
+                          "a diffuse surface that reflects as much stands for it"));
+            return two_sided(id, "diffuse", color("reflectance", stated_reflectance(Material(m))));
+        }
+        warn("Mitsuba's roughdielectric loses the light that meets several facets.");
+        return dielectric("roughdielectric", m.parameters().ior, 1,
+                          "      <string name=\"distribution\" value=\"ggx\"/>\n" +
+                              real("alpha", m.parameters().roughness));
     }
     std::string operator()(const materials::ThinDielectric& m) const {
         warn(

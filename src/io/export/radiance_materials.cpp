@@ -34,7 +34,7 @@ struct RadianceMaterial {
     template <typename Model>
     std::string operator()(const Model& m) const {
         warn(no_equal(Model::kType, "Radiance", "a diffuse surface that reflects as much stands for it"));
-        return with_rgb("plastic", id, m.reflectance_bound(), {0, 0});
+        return with_rgb("plastic", id, stated_reflectance(Material(m)), {0, 0});
     }
     std::string operator()(const Diffuse& m) const { return with_rgb("plastic", id, m.reflectance, {0, 0}); }
     std::string operator()(const materials::Black&) const { return with_rgb("plastic", id, {}, {0, 0}); }
@@ -69,6 +69,20 @@ struct RadianceMaterial {
             "unless the lamps are made of glow.");
         if (m.outside_ior == 1) return with_rgb("dielectric", id, Rgb::grey(1), {m.ior, 0});
         return with_rgb("interface", id, Rgb::grey(1), {m.ior, 1, 1, 1, m.outside_ior});
+    }
+    std::string operator()(const materials::Translucent& m) const {
+        const auto& [reflected, diffuse, straight] = m.parameters();
+        const Rgb color = reflected + diffuse + straight;
+        const double passing = (diffuse + straight).luminance();
+        const double trans = passing > 0 ? passing / color.luminance() : 0;
+        const double tspec = passing > 0 ? straight.luminance() / passing : 0;
+        constexpr double rounding = 1e-9;
+        const auto is_grey_share = [&](const Rgb& part, double share) {
+            return (part + color * -share).max() <= rounding && (color * share + part * -1).max() <= rounding;
+        };
+        if (!is_grey_share(diffuse + straight, trans) || !is_grey_share(straight, trans * tspec))
+            warn("Radiance's trans has the same colour for the light that it reflects and transmits.");
+        return with_rgb("trans", id, color, {0, 0, trans, tspec});
     }
     std::string operator()(const materials::ThinDielectric& m) const {
         return with_rgb("glass", id, m.internal_transmittance, {m.ior});

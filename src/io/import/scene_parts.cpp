@@ -23,7 +23,11 @@ struct MaterialTable {
         TomlMembers members{{"type", 0, toml_text(std::string(Model::kType))}};
         const auto& parameters = materials::parameters_of(model);
         for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
-            members.push_back({std::string(field.key), 0, toml_value(parameters.*field.member)});
+            const auto& value = parameters.*field.member;
+            if constexpr (requires { value.is_given(); }) {
+                if (!value.is_given()) return;
+            }
+            members.push_back({std::string(field.key), 0, toml_value(value)});
         });
         return members;
     }

@@ -16,6 +16,7 @@
 #include "base/warning.h"
 #include "io/scene/sections.h"
 #include "io/scene/toml.h"
+#include "materials/shares_by_angle.h"
 #include "sensors/fields.h"
 #include "sensors/sensor.h"
 
@@ -29,6 +30,9 @@ inline void read_value(const TomlItem& item, const Range& range, double& value) 
     value = item.number(range);
 }
 inline void read_value(const TomlItem& item, const Range& range, Rgb& value) { value = item.rgb(range); }
+inline void read_value(const TomlItem& item, const Range&, bool& value) { value = item.boolean(); }
+/// A number or a colour, or rows of an angle and one of these.
+void read_value(const TomlItem& item, const Range& range, materials::SharesByAngle& value);
 template <std::size_t count>
 void read_value(const TomlItem& item, const Range& range, std::array<double, count>& values) {
     const std::vector<double> numbers = item.numbers(count, range);

@@ -267,6 +267,34 @@ SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std
 
 namespace {
 
+constexpr Range kRightAngle{0, 90, "from 0 to 90 degrees"};
+
+materials::SharesByAngle::Row read_row(const TomlItem& item, const Range& range) {
+    const std::vector<TomlItem> elements = item.elements();
+    if (elements.size() != 2)
+        item.fail("a row is an angle in degrees and a share: [60, 0.7] or [60, [r, g, b]].");
+    return {elements[0].number(kRightAngle), elements[1].rgb(range)};
+}
+
+}  // namespace
+
+void read_value(const TomlItem& item, const Range& range, materials::SharesByAngle& value) {
+    const bool has_rows = item.is_array() && !item.elements().empty() && item.elements()[0].is_array();
+    if (!has_rows) {
+        value = materials::SharesByAngle::along_normal(item.rgb(range));
+        return;
+    }
+    value.rows.clear();
+    for (const TomlItem& row : item.elements()) value.rows.push_back(read_row(row, range));
+    if (value.is_along_normal()) item.fail("a table has two rows at least.");
+    for (std::size_t i = 1; i < value.rows.size(); ++i) {
+        if (value.rows[i].degrees <= value.rows[i - 1].degrees)
+            item.elements()[i].fail("its angle does not exceed that of the row before.");
+    }
+}
+
+namespace {
+
 /// Each model reads its own parameters.
 Material read_material(TomlTable& table) {
     const std::string_view type = table.choose("type", materials::type_names());

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "io/scene/toml.h"
+#include "materials/shares_by_angle.h"
 
 namespace stilb::io {
 
@@ -25,7 +26,15 @@ TomlValue toml_text(std::string text);
 /// The value of a field.
 template <typename Value>
 TomlValue toml_value(const Value& value) {
-    if constexpr (std::is_integral_v<Value>) {
+    if constexpr (std::is_same_v<Value, bool>) {
+        return {value};
+    } else if constexpr (std::is_same_v<Value, materials::SharesByAngle>) {
+        if (value.is_along_normal()) return toml_rgb(value.rows[0].share);
+        TomlArray rows;
+        for (const auto& [degrees, share] : value.rows)
+            rows.push_back({TomlArray{toml_number(degrees), toml_rgb(share)}});
+        return {std::move(rows)};
+    } else if constexpr (std::is_integral_v<Value>) {
         return {static_cast<std::int64_t>(value)};
     } else if constexpr (std::is_same_v<Value, double>) {
         return toml_number(value);

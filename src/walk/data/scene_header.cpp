@@ -10,7 +10,13 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 Json value_json(double value) { return value; }
+Json value_json(bool value) { return value; }
 Json value_json(const Rgb& value) { return json_of(value); }
+Json value_json(const materials::SharesByAngle& value) {
+    Json rows = Json::array();
+    for (const auto& [degrees, share] : value.rows) rows.push_back({degrees, json_of(share)});
+    return rows;
+}
 Json value_json(const std::array<double, 2>& value) { return value; }
 
 /// The light's colour with luminance 1; white where the light is dark.

@@ -31,6 +31,13 @@ Json extent_json(const Bounds& bounds) {
 
 Json parameter_json(double value) { return value; }
 Json parameter_json(const Rgb& value) { return value.luminance(); }
+Json parameter_json(bool value) { return value; }
+Json parameter_json(const materials::SharesByAngle& value) {
+    if (value.is_along_normal()) return parameter_json(value.rows[0].share);
+    Json rows = Json::array();
+    for (const auto& [degrees, share] : value.rows) rows.push_back({degrees, share.luminance()});
+    return rows;
+}
 template <std::size_t count>
 Json parameter_json(const std::array<double, count>& values) {
     return values;

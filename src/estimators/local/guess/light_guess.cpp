@@ -31,9 +31,9 @@ bool is_smooth(const Shape& shape) {
 }
 
 bool is_traced(const Material& material) {
+    if (is_specular(material) || transmits(material)) return true;
     const materials::SplitMaterial parts = materials::split(material);
-    return is_specular(material) || (!(parts.diffuse_reflectance.max() > 0) && parts.gloss &&
-                                     mean_concentration(*parts.gloss) > kSharp);
+    return !(parts.diffuse_reflectance.max() > 0) && parts.gloss && mean_concentration(*parts.gloss) > kSharp;
 }
 
 std::vector<materials::SplitMaterial> split_materials(const Scene& scene) {

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <utility>
 
+#include "estimators/limits.h"
 #include "estimators/patch_light/first_shot/shadow_rays.h"
 #include "estimators/patch_light/patch_transport.h"
 
@@ -108,7 +109,7 @@ FirstShotOptions first_shot_options(const PatchOptions& asked) {
 
 FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked,
                                    const Monitor& monitor)
-    : scene(all),
+    : scene((require_reflection_only(all), all)),
       caster(rays),
       options(asked),
       lights(scene, caster),

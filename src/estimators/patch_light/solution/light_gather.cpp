@@ -321,7 +321,7 @@ void LightGather::follow(std::span<GatheredRay> rays) const {
         ray.path.hit = *hits[i];
         ray.path.reflections_left = transport::kUnlimited;
         ray.path.previous_vertex = transport::kDirectIsKnown;
-        ray.stands = tracer_.follow_to_scattering(ray.path);
+        ray.stands = tracer_.follow_to_scattering(ray.path).has_value();
     }
 }
 

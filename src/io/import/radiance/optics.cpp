@@ -15,6 +15,7 @@
 #include "materials/mirror.h"
 #include "materials/plastic.h"
 #include "materials/thin_dielectric.h"
+#include "materials/translucent.h"
 #include "materials/ward.h"
 
 namespace stilb::io::radiance {
@@ -132,24 +133,26 @@ class MaterialReader {
                         "stands for Radiance's, which approximates them."));
     }
 
+    /// [Larson, Shakespeare: Rendering with Radiance, 5.2.6]
     void read_trans() {
         expect_numbers(7);
         const double s = share(3), transmitted = share(5) * (1 - s), straight = share(6);
-        const double roughness = modifier_.numbers[4], diffuse = 1 - s - transmitted;
+        const double roughness = within(modifier_.numbers[4], 0, 1), diffuse = 1 - s - transmitted;
         const Rgb c = color();
-        if (transmitted * c.max() > 0 && straight == 1 && diffuse < 1e-6 && s == 0 && roughness <= kSharp) {
-            optics_.material = materials::ThinDielectric{1, transmitted * c};
-            warn("a pane without reflection stands for it. Its transmittance falls towards grazing angles.");
-            return;
+        if (!(transmitted * c.max() > 0)) {
+            if (s > 0) return set_ward(diffuse * c, Rgb::grey(s), roughness);
+            return set_diffuse(diffuse * c);
         }
-        if (transmitted * c.max() > 0) {
-            warn(fmt::format(
-                "Stilb's surfaces transmit no scattered light: {:.1f} % of the light, which it transmits in "
-                "Radiance, are lost. Its reflection is kept.",
-                100 * (transmitted * c).luminance()));
-        }
-        if (s > 0) return set_ward(diffuse * c, Rgb::grey(s), roughness);
-        set_diffuse(diffuse * c);
+        const bool is_sharp = roughness <= kSharp;
+        if (s > 0)
+            warn(fmt::format("its gloss, {:.1f} % of the light, is reflected in all directions.", 100 * s));
+        if (straight > 0 && !is_sharp)
+            warn(
+                "the light that its roughness spreads a little, as it lets it through, goes in all "
+                "directions.");
+        optics_.material = materials::Translucent({diffuse * c + Rgb::grey(s),
+                                                   transmitted * (is_sharp ? 1 - straight : 1) * c,
+                                                   transmitted * (is_sharp ? straight : 0) * c});
     }
 
     // Glass

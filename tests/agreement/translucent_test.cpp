@@ -1,0 +1,150 @@
+// Surfaces that let light through, against exact values, by every method that has them.
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "agreement/sanitized.h"
+#include "io/scene/scene_file.h"
+#include "run/run.h"
+#include "stilb/error.h"
+
+namespace stilb {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+/// Shares of the light: reflected, transmitted diffusely, and straight.
+constexpr double kReflected = 0.4, kDiffuse = 0.35, kStraight = 0.15;
+
+struct Measured {
+    statistics::Estimate value;
+    std::string technique;
+};
+
+std::vector<Measured> measured(const std::string& text, const std::string& method, double error) {
+    const io::SceneFile file = io::read_scene(text, "scene.toml", "");
+    RunOptions options;
+    options.method = method;
+    options.error = 2 * error;  // half of an interval
+    options.time_s = 60;
+    const RunResult result = run::measure(file.scene, file.sensors, options);
+    std::vector<Measured> all;
+    for (const SensorResult& sensor : result.sensors)
+        all.push_back({sensor.readings[0].estimate, result.technique});
+    return all;
+}
+
+void expect_exact(const Measured& one, double exact, double error, const std::string& what) {
+    EXPECT_NEAR(one.value.value, exact, 4.5 * one.value.standard_error) << what << ", " << one.technique;
+    EXPECT_LT(one.value.standard_error, error * exact) << what << ": the comparison tells something";
+}
+
+class Translucent : public testing::TestWithParam<const char*> {
+  protected:
+    /// Local estimation has an infinite variance in corners.
+    double error() const { return kCoarser * (GetParam() == std::string("local") ? 0.01 : 0.004); }
+    bool measures_luminance() const { return GetParam() != std::string("local"); }
+};
+
+/// Under an even sky everything that keeps all light is invisible, on both sides.
+TEST_P(Translucent, SheetsThatKeepAllLightAreInvisibleUnderAnEvenSky) {
+    std::string text =
+        "[materials.sheet]\ntype = \"translucent\"\nreflectance = 0.5\ntransmittance = 0.3\n"
+        "specular_transmittance = 0.2\n"
+        "[lights.sky]\ntype = \"environment\"\nluminance = 100\n"
+        "[objects.box]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [2, 3, 1]\nmaterial = \"sheet\"\n"
+        "[objects.sheet]\nshape = \"rectangle\"\ncorner = [-1, -1, 2]\nedge_u = [3, 0, 0]\nedge_v = [0, 4, "
+        "0]\n"
+        "material = \"sheet\"\n"
+        "[sensors.inside]\ntype = \"illuminance\"\nposition = [0.7, 1, 0.3]\nnormal = [0.6, 0, 0.8]\n"
+        "[sensors.between]\ntype = \"illuminance\"\nposition = [1.2, 1.5, 1.5]\nnormal = [0, 0.6, -0.8]\n";
+    const double exact_lx = 100 * kPi, error = this->error();
+    if (measures_luminance())
+        text +=
+            "[sensors.seen]\ntype = \"luminance\"\nposition = [1, 1, 5]\ndirection = [0.1, 0.2, -1]\n"
+            "[sensors.seen_inside]\ntype = \"luminance\"\nposition = [1, 1, 0.5]\ndirection = [1, 0.5, "
+            "0.1]\n";
+    const std::vector<Measured> all = measured(text, GetParam(), error);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        expect_exact(all[i], i < 2 ? exact_lx : 100, error, fmt::format("sensor {}", i));
+}
+
+/// So is frosted glass, a solid and a sheet, whose facets send on all light.
+TEST_P(Translucent, FrostedGlassIsInvisibleUnderAnEvenSky) {
+    std::string text =
+        "[materials.solid]\ntype = \"frosted\"\nior = 1.5\nroughness = 0.4\n"
+        "[materials.sheet]\ntype = \"frosted\"\nior = 1.6\nroughness = 0.7\nthin = true\n"
+        "[lights.sky]\ntype = \"environment\"\nluminance = 100\n"
+        "[objects.box]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [2, 3, 1]\nmaterial = \"solid\"\n"
+        "[objects.sheet]\nshape = \"rectangle\"\ncorner = [-1, -1, 2]\nedge_u = [3, 0, 0]\nedge_v = [0, 4, "
+        "0]\n"
+        "material = \"sheet\"\n"
+        "[sensors.between]\ntype = \"illuminance\"\nposition = [1.2, 1.5, 1.5]\nnormal = [0, 0.6, -0.8]\n";
+    const double error = (GetParam() == std::string("double-local") ? 6 : 2) * this->error();
+    if (measures_luminance())
+        text += "[sensors.seen]\ntype = \"luminance\"\nposition = [1, 1, 1.8]\ndirection = [0.1, 0.2, -1]\n";
+    const std::vector<Measured> all = measured(text, GetParam(), error);
+    for (std::size_t i = 0; i < all.size(); ++i)
+        expect_exact(all[i], i == 0 ? 100 * kPi : 100, error, fmt::format("sensor {}", i));
+}
+
+/// A lamp in the middle of a shell in the dark. Inside, E = E0 / (1 - reflectance) with E0 = I / r^2.
+/// Outside, the shell's luminance is what it transmits of that and what passes straight of the luminance
+/// behind it, and so its illuminance at the distance d is (r / d)^2 pi times as much; the lamp's own light
+/// passes straight.
+TEST_P(Translucent, ShellsAroundALampLightWhatIsOutside) {
+    const double r = 0.5, d = 2, intensity = 1000 / (4 * kPi),
+                 inside = intensity / (r * r) / (1 - kReflected);
+    // An exact sphere has no guess.
+    const double error = (GetParam() == std::string("guided") ? 4 : 1) * this->error();
+    std::string text = fmt::format(
+        "[materials.shell]\ntype = \"translucent\"\nreflectance = {}\ntransmittance = {}\n"
+        "specular_transmittance = {}\n[objects.shell]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = "
+        "0.5\nmaterial = \"shell\"\n"
+        "[lights.lamp]\ntype = \"point\"\nposition = [0, 0, 0]\nflux = 1000\n"
+        "[sensors.outside]\ntype = \"illuminance\"\nposition = [0, 0, 2]\nnormal = [0, 0, -1]\n",
+        kReflected, kDiffuse, kStraight);
+    if (measures_luminance())
+        text +=
+            "[sensors.shell]\ntype = \"luminance\"\nposition = [0, 0, 2]\ndirection = [0.05, 0.02, -1]\n"
+            "[sensors.wall]\ntype = \"luminance\"\nposition = [0, 0, 0.2]\ndirection = [0.3, 0.2, 1]\n";
+    const std::vector<Measured> all = measured(text, GetParam(), error);
+    const double luminance = (kDiffuse + kStraight * kReflected) * inside / kPi;
+    expect_exact(all[0], (r / d) * (r / d) * kPi * luminance + kStraight * intensity / (d * d), error,
+                 "outside");
+    if (!measures_luminance()) return;
+    expect_exact(all[1], luminance, error, "seen from outside");
+    expect_exact(all[2], kReflected * inside / kPi, error, "seen from inside");
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, Translucent,
+                         testing::Values("auto", "path", "light-paths", "guided", "local", "double-local"),
+                         [](const auto& method) {
+                             std::string name;
+                             for (const char letter : std::string(method.param))
+                                 if (letter != '-') name += letter;
+                             return name;
+                         });
+
+TEST(Transmission, IsRefusedByMethodsWithPatches) {
+    const std::string text =
+        "[materials.shell]\ntype = \"translucent\"\nreflectance = 0.4\ntransmittance = 0.4\n"
+        "[objects.ball]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = 0.5\nmaterial = \"shell\"\n"
+        "[lights.lamp]\ntype = \"point\"\nposition = [0, 0, 0]\nflux = 1000\n"
+        "[sensors.outside]\ntype = \"illuminance\"\nposition = [0, 0, 2]\nnormal = [0, 0, -1]\n";
+    for (const char* method : {"ray-bundle", "radiosity", "particles"}) {
+        try {
+            measured(text, method, 0.1);
+            ADD_FAILURE() << method;
+        } catch (const InputError& error) {
+            const std::string message = error.what();
+            EXPECT_NE(message.find("object \"ball\""), std::string::npos) << message;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace stilb
