@@ -231,10 +231,10 @@ TEST(HarmonicBodies, AreAsFineMeshes) {
 }
 
 TEST(AgreementItself, NoticesABrighterLamp) {
-    // The same comparison, of a room with the same room one per cent brighter.
+    // The same comparison, of a room with the same room so much brighter as has to be noticed.
     const AgreementScene& of = agreement_scenes()[0];
     Scene brighter = of.make();
-    std::get<PointLight>(brighter.lights[0].source).intensity_cd *= 1 + kNoticed;
+    std::get<PointLight>(brighter.lights[0].source).intensity_cd *= 1 + coarser(of.coarser) * kNoticed;
     const std::vector<TwoRuns> right = measure_all(of.make(), of, 5);
     const std::vector<TwoRuns> wrong = measure_all(brighter, of, 500);
     for (const TwoRuns& a : right) {
