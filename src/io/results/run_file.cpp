@@ -104,8 +104,14 @@ std::string fingerprint_of(const Scene& scene) {
         materials::visit_model(
             [&]<typename Model>(const Model& model) {
                 print.add(Model::kType);
-                for_each_field<materials::ParametersOf<Model>>(
-                    [&](const auto& field) { print.add(materials::parameters_of(model).*field.member); });
+                for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
+                    const auto& value = materials::parameters_of(model).*field.member;
+                    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, materials::SharesByAngle>) {
+                        for (const materials::SharesByAngle::Row& row : value.rows) print.add(row);
+                    } else {
+                        print.add(value);
+                    }
+                });
             },
             material.material);
     }
