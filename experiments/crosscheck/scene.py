@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-MATERIALS = ("diffuse", "phong", "rough", "plastic", "mirror", "glass", "pane", "black")
+MATERIALS = ("diffuse", "phong", "rough", "plastic", "mirror", "glass", "pane", "translucent", "frosted", "black")
 LUMINANCE_WEIGHTS = np.array([0.2126, 0.7152, 0.0722])
 
 
@@ -121,7 +121,7 @@ def _rgb(value) -> np.ndarray:
 def _read_material(table: dict) -> dict:
     if table["type"] not in MATERIALS:
         raise ValueError(f"material type {table['type']} is not compared")
-    keys = ("reflectance", "diffuse", "specular")
+    keys = ("reflectance", "diffuse", "specular", "transmittance", "specular_transmittance")
     return {key: _rgb(value) if key in keys else value for key, value in table.items()}
 
 

@@ -65,8 +65,11 @@ def _columns(vectors: np.ndarray) -> np.ndarray:
 
 
 def _is_beyond_mitsuba(scene: Scene) -> bool:
-    """It has no luminaire files and no panes that absorb."""
-    return bool(scene.luminaires) or any(s.material.get("internal_transmittance", 1) < 1 for s in scene.surfaces)
+    """It has no luminaire files, no panes that absorb, and no translucent or frosted sheets."""
+    return bool(scene.luminaires) or any(
+        s.material.get("internal_transmittance", 1) < 1 or s.material["type"] == "translucent" or s.material.get("thin")
+        for s in scene.surfaces
+    )
 
 
 def _illuminance_batch(world, integrator, positions, normals, size: int, seed: int) -> np.ndarray:
@@ -148,6 +151,9 @@ def _bsdf(material: dict) -> dict:
         color = rgb("reflectance" if material["type"] == "rough" else "diffuse")
         inner = {"type": "stilb_ggx", "color": color, "roughness": material["roughness"]}
         inner["ior"] = float(material.get("ior", 0))
+    elif material["type"] == "frosted":
+        kind = {"type": "roughdielectric", "distribution": "ggx", "alpha": material["roughness"]}
+        return kind | {"int_ior": material["ior"], "ext_ior": 1.0}
     elif material["type"] in ("glass", "pane"):
         kind = "dielectric" if material["type"] == "glass" else "thindielectric"
         return {"type": kind, "int_ior": material["ior"], "ext_ior": 1.0}

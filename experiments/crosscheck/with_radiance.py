@@ -49,7 +49,7 @@ def _measure(scene: Scene, error: float, settings: list[str], draw_rays, overall
 def _is_beyond_radiance(surface: Surface) -> bool:
     """It has no Phong and no GGX, and what gives light there reflects nothing."""
     kind = surface.material["type"]
-    return kind in ("phong", "rough", "plastic") or (surface.luminance is not None and kind != "black")
+    return kind in ("phong", "rough", "plastic", "frosted") or (surface.luminance is not None and kind != "black")
 
 
 def run(command: list, data: bytes = b"") -> bytes:
@@ -106,6 +106,12 @@ def _surface(surface: Surface, name: str, lamp: str, reach: str) -> list[str]:
     elif material["type"] == "pane":
         passed = _text([material["internal_transmittance"]] * 3)
         lines, modifier = [f"void glass m{name} 0 0 4 {passed} {material['ior']}"], f"m{name}"
+    elif material["type"] == "translucent":
+        reflected, passed = material["reflectance"], material["transmittance"]
+        straight = material.get("specular_transmittance", 0)
+        color = reflected + passed + straight
+        shares = [np.mean((passed + straight) / color), np.mean(straight / (passed + straight))]
+        lines, modifier = [f"void trans m{name} 0 0 7 {_text(color)} 0 0 {_text(shares)}"], f"m{name}"
     else:
         lines, modifier = [f"void plastic m{name} 0 0 5 {_text(material['reflectance'])} 0 0"], f"m{name}"
     if isinstance(shape, Sphere):
