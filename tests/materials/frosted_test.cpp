@@ -178,6 +178,16 @@ TEST(Glazing, HasTheShapeOfItsKind) {
     EXPECT_NEAR(measured.reflectance(LightSide::inside, std::cos(30 * kPi / 180))[1], 0.15, 1e-12);
 }
 
+TEST(Glazing, IsBronzeUpToATransmittanceOf0645) {
+    const double cosine = std::cos(60 * kPi / 180);
+    for (const auto& [transmittance, shape] : {std::pair{0.644, 0.8397}, {0.645, 0.8397}, {0.646, 0.8982}}) {
+        Glazing::Parameters parameters;
+        parameters.transmittance = SharesByAngle::along_normal(Rgb::grey(transmittance));
+        parameters.reflectance = SharesByAngle::along_normal(Rgb::grey(0.1));
+        EXPECT_NEAR(Glazing(parameters).straight_transmittance(cosine)[0] / transmittance, shape, 1e-4);
+    }
+}
+
 TEST(Glazing, RefusesContradictions) {
     Glazing::Parameters parameters;
     EXPECT_EQ(parameters.contradiction(),
