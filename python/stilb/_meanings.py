@@ -13,6 +13,9 @@ KINDS = {
         "mirror": "A perfect mirror.",
         "glass": "The surface of a solid of clear glass.",
         "pane": "A thin sheet of clear glass.",
+        "glazing": "A pane, or several, by the shares of a data sheet.",
+        "translucent": "A thin sheet that scatters the light that it lets through.",
+        "frosted": "Glass with rough faces: the surface of a solid, or a thin sheet.",
         "black": "A surface that reflects nothing.",
     },
     "objects": {
@@ -66,6 +69,20 @@ KEYS = {
     "materials.plastic": {"diffuse": "reflectance of the base without its coat, 0 to 1, or (r, g, b)"},
     "materials.pane": {
         "internal_transmittance": "share of the light that one passage along the normal leaves, without the faces, 0 to 1",
+    },
+    "materials.glazing": {
+        "visible_transmittance": "share along the normal of one uncoated pane, 0 to 0.918, in place of the others",
+        "transmittance": "share along the normal, 0 to 1, (r, g, b), or rows (degrees, share)",
+        "reflectance": "of the front: share along the normal, 0 to 1, (r, g, b), or rows (degrees, share)",
+        "back_reflectance": "of the back, likewise (default: as the front)",
+    },
+    "materials.translucent": {
+        "transmittance": "share that is transmitted diffusely, 0 to 1, or (r, g, b)",
+        "specular_transmittance": "share that passes straight, 0 to 1, or (r, g, b) (default: 0)",
+    },
+    "materials.frosted": {
+        "roughness": "alpha of GGX, of its faces, 0.001 to 1",
+        "thin": "True of a sheet (default: False, the surface of a solid)",
     },
     "objects": {
         "material": "name of the material",
