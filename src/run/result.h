@@ -164,7 +164,7 @@ struct RunResult : RunSummary {
     /// them.
     std::string scene_hash, sensors_hash;
     std::vector<std::uint64_t> seeds;  ///< of runs of several seeds together: all of them; else empty
-    std::uint64_t rays = 0;  ///< of the connections to receivers
+    std::uint64_t rays = 0;            ///< of the connections to receivers
     /// Nominal, of the intervals: more than 95 % where the run stopped by its own estimates, so that they
     /// hold in 95 % of the runs.
     double confidence = 0.95;
