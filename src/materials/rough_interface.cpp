@@ -155,7 +155,7 @@ auto RefractingFacets::facet(const Vec3& near, const Vec3& far) const -> std::op
 double RefractingFacets::value_per_sr(const Vec3& near, const Vec3& far) const {
     double value = 0;
     if (const auto met = facet(near, far)) {
-        // f / far ior * near ior; |sum| is |n i.h + n' o.h|.
+        // f over the far index; the sum's length is that of both cosines, each times its index.
         value = (1 - side_.reflected(met->near_cosine)) * facets_.distribution_per_sr(met->normal) *
                 facets_.shown(near) * facets_.shown(far) * met->near_cosine * met->jacobian /
                 (near.z * far.z * ior_);
