@@ -61,9 +61,10 @@ class Ggx {
 /// The mean of f(in, normal) over the normals that are visible under this cosine, in = (sine, 0, cosine), for
 /// an f that is even in y. By the midpoint rule on the disk of visible_normal(), denser near its rim, where
 /// the few steep facets are by which smooth surfaces lose light.
-template <typename Function>
+/// `kRings`: more of them for an f that has edges, such as that of total reflection.
+template <int kRings = 64, typename Function>
 double mean_over_visible_normals(const Ggx& facets, double cosine, const Function& f) {
-    constexpr int kRings = 64, kRays = 64;
+    constexpr int kRays = 64;
     const Vec3 in{std::sqrt((1 - cosine) * (1 + cosine)), 0, cosine};
     double sum = 0;
     for (int i = 0; i < kRings; ++i) {

@@ -38,7 +38,7 @@ AlbedoTable transmitted_table(const FacetSide& side) {
     if (side.is_sheet) return reflected_table(side, true);
     const Ggx facets(side.roughness);
     return AlbedoTable(side.roughness, [&](double cosine) {
-        return mean_over_visible_normals(facets, cosine, [&](const Vec3& in, const Vec3& normal) {
+        return mean_over_visible_normals<256>(facets, cosine, [&](const Vec3& in, const Vec3& normal) {
             const auto out = refracted(in, normal, side.ior);
             return out ? (1 - side.reflected(dot(in, normal))) * facets.shown(*out) : 0;
         });

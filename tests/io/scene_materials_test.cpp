@@ -21,13 +21,13 @@ TEST(SceneMaterials, RefusesUnknownTypes) {
     EXPECT_REFUSAL(
         material("type = \"difuse\""),
         "s.toml:2: materials.m.type: unknown type \"difuse\". Did you mean \"diffuse\"? Allowed: diffuse, "
-        "phong, rough, ward, plastic, mirror, glass, pane, black.");
+        "phong, rough, ward, plastic, mirror, glass, pane, glazing, translucent, frosted, black.");
 }
 
 TEST(SceneMaterials, RefusesMissingKeys) {
     EXPECT_REFUSAL("\n[materials.m]\nreflectance = 1",
                    "s.toml:2: materials.m: key \"type\" is missing. Allowed: diffuse, phong, rough, ward, "
-                   "plastic, mirror, glass, pane, black.");
+                   "plastic, mirror, glass, pane, glazing, translucent, frosted, black.");
     EXPECT_REFUSAL(material("type = \"diffuse\""),
                    "s.toml:1: materials.m: key \"reflectance\" is missing for type \"diffuse\".");
 }

@@ -70,7 +70,7 @@ std::string name_of(const Frosted& glass) {
 }
 
 TEST(Frosted, KeepsAllLightOnBothSides) {
-    constexpr int kSteps = 128;
+    constexpr int kSteps = 256;
     RandomPairs random(12);
     for (const Frosted& glass : glasses()) {
         for (const LightSide side : {LightSide::outside, LightSide::inside}) {

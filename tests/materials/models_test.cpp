@@ -37,13 +37,16 @@ void draw(std::array<double, count>& values, const Range& range, RandomPairs& ra
     for (double& value : values) draw(value, range, random);
 }
 
-/// Parameters that do not contradict each other.
+/// Parameters that do not contradict each other; half of the optional ones are left out.
 template <typename Parameters>
 Parameters drawn(RandomPairs& random) {
     Parameters parameters;
     do {
-        for_each_field<Parameters>(
-            [&](const auto& field) { draw(parameters.*field.member, field.range, random); });
+        parameters = {};
+        for_each_field<Parameters>([&](const auto& field) {
+            if (field.presence == Presence::required || random.next() < 0.5)
+                draw(parameters.*field.member, field.range, random);
+        });
     } while (contradiction_in(parameters));
     return parameters;
 }
@@ -63,8 +66,10 @@ std::vector<Material> materials_of_every_model() {
 std::vector<Material> scattering_of_every_model() {
     std::vector<Material> all = materials_of_every_model();
     for (const Material& material : materials_of_every_model()) {
-        for (const Lobe& lobe : lobes(material, LightSide::inside, Carried::flux))
-            all.push_back(lobe.scattering);
+        for (const Lobe& lobe : lobes(material, LightSide::inside, Carried::flux)) {
+            // Refraction tells both directions apart (frosted_test.cpp).
+            if (lobe.far_over_near == 1) all.push_back(lobe.scattering);
+        }
     }
     return all;
 }

@@ -141,7 +141,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/lights/solid_angle/solid_angle.cpp", "kEdgeOn kRightAngle"},
         {"src/materials/albedo_table.h", "kCells"},
         {"src/materials/frosted.cpp", "least"},
-        {"src/materials/ggx.h", "kRings kRays"},
+        {"src/materials/ggx.h", "kRays"},
         {"src/materials/glazing.cpp", "kClearIor rounding"},
         {"src/materials/material.cpp", "rounding"},
         {"src/materials/model.h", "kSteps"},
