@@ -132,6 +132,10 @@ bool transmits(const Material& material) {
     return std::ranges::any_of(branches.list(), [](const auto& branch) { return branch.direction.z < 0; });
 }
 
+bool scatters_through(const Material& material) {
+    return std::ranges::any_of(lobes(material, LightSide::outside, Carried::flux), &Lobe::crosses);
+}
+
 bool passes_straight(const Material& material) {
     const auto of = lobes(material, LightSide::outside, Carried::flux);
     return visit_model([]<typename M>(const M&) { return PassesStraight<M>; }, material) ||

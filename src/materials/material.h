@@ -87,6 +87,8 @@ bool is_specular(const Material& material);
 SpecularBranches specular_branches(const Material& material, LightSide side, const Vec3& in);
 /// Whether light gets through the surface.
 bool transmits(const Material& material);
+/// Whether some of it is scattered on the way.
+bool scatters_through(const Material& material);
 /// Whether light passes straight through the surface, as shadow rays then do: panes, and lobes that do.
 bool passes_straight(const Material& material);
 /// Its share of the flux, at an angle of this cosine to the normal; 0 for other materials.

@@ -136,6 +136,14 @@ void add_point(const Eye& eye, std::uint32_t light, Glare& glare) {
                             {}});
 }
 
+/// Whether a part of a box is above the plane of an eye.
+bool is_in_front(const Bounds& box, const MeasuringPoint& eye) {
+    const Vec3 half = 0.5 * (box.max - box.min), &n = eye.normal;
+    return dot(box.middle() - eye.position, n) + std::abs(n.x) * half.x + std::abs(n.y) * half.y +
+               std::abs(n.z) * half.z >
+           0;
+}
+
 }  // namespace
 
 bool is_in_field(const Vec3& direction, const Vec3& line_of_sight) {
@@ -166,6 +174,13 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
     Glare glare;
     glare.direct_of_replicates_lx.resize(replicates);
     const Eye eye(at, caster, lights);
+    for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
+        const Object& object = scene.objects[i];
+        const bool is_sheet = std::ranges::any_of(object.materials, [&](MaterialId material) {
+            return scatters_through(scene.material(material));
+        });
+        if (is_sheet && is_in_front(bounds_of(object.shape), at)) glare.sheets.push_back(ObjectId{i});
+    }
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         switch (location_of(scene.lights[i])) {
             case LightLocation::point:
