@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "materials/black.h"
+#include "materials/translucent.h"
 #include "run/run.h"
 #include "statistics/hypothesis.h"
 #include "support/scene_builder.h"
@@ -206,6 +207,18 @@ TEST(UnifiedGlareRating, DoesNotPassWhereWhatItLeavesOutCouldChangeTheVerdict) {
     const double with_it = exact_with(counted, luminance);
     EXPECT_EQ(verdict_at(larger, with_it - 0.5).verdict, Verdict::fail);
     EXPECT_EQ(verdict_at(larger, with_it + 0.5).verdict, Verdict::pass);
+}
+
+TEST(UnifiedGlareRating, DoesNotPassWithShadesThatMayGlare) {
+    Scene scene = lamp_in_an_environment();
+    add_object(scene, Rectangle{{2, 3, 1}, {0.2, 0, 0}, {0, 0, 0.2}},
+               materials::Translucent({Rgb::grey(0.4), Rgb::grey(0.5), {}}));
+    const run::RatedRequirement rated = verdict_at(scene, 60);
+    EXPECT_EQ(rated.verdict, Verdict::unsure);
+    EXPECT_NE(rated.reason.find("may glare by the light that it scatters"), std::string::npos)
+        << rated.reason;
+    // Behind the eye it does not matter.
+    EXPECT_EQ(verdict_at(scene, 60, {{0, 4, 1.2}, {0, 1, 0}}).verdict, Verdict::pass);
 }
 
 TEST(UnifiedGlareRating, DoesNotPassWithLampsThatItWasNotMadeFor) {
