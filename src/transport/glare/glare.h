@@ -46,7 +46,8 @@ struct GlareSource {
 struct Glare {
     std::vector<GlareSource> sources;  ///< in front of the eye and seen by it
     std::vector<GlareSource> points;   ///< the same without a luminous area: their L and w are 0
-    /// In front of the eye: objects that scatter the light that they let through, and so may glare themselves.
+    /// In front of the eye: objects that scatter the light that they let through, and so may glare
+    /// themselves.
     std::vector<ObjectId> sheets;
     /// The illuminance at the eye by all lamps, points included, by independent samples of them.
     std::vector<double> direct_of_replicates_lx;
