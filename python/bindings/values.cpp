@@ -27,7 +27,8 @@ Value list_of(nb::handle sequence, const std::string& path) {
     return list;
 }
 
-/// Of a number or an array of NumPy. Its widest numbers stay what they are.
+/// The value of a number or an array of NumPy. tolist() makes them numbers of Python, but for the widest
+/// (longdouble), which becomes a double here.
 Value numpy_value_of(nb::handle value, const std::string& path) {
     const nb::object plain = value.attr("tolist")();
     if (!plain.type().is(value.type())) return value_of(plain, path);

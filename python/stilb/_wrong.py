@@ -1,4 +1,4 @@
-"""What is said of arguments of a wrong kind."""
+"""Error messages for arguments of a wrong type."""
 
 from __future__ import annotations
 

@@ -68,15 +68,16 @@ def _plan(scene: Scene, sensors: list[str], limits: Limits) -> bytes:
     return state.bytes()
 
 
-def _is_news(record: logging.LogRecord) -> bool:
-    """Of the log of a worker. One that is closed while it still works on a part that was cancelled says so."""
+def _is_unexpected(record: logging.LogRecord) -> bool:
+    """Whether a worker's log needs this record. A worker that is closed while it computes a cancelled part logs that, which
+    is no fault."""
     message = record.getMessage()
     return not ("<Task cancelled" in message and "execute('_part-" in message)
 
 
 def _part(scene: Scene, sensors: list[str], limits: Limits, part: int, parts: int, before: bytes) -> bytes:
     """The part with the samples of `limits`; `before`: its state with fewer of them, or that of the plan."""
-    logging.getLogger("distributed.worker.state_machine").addFilter(_is_news)
+    logging.getLogger("distributed.worker.state_machine").addFilter(_is_unexpected)
     state = _stilb.RunState.read(before, "part of a run")
     _stilb.measure_part(scene._scene(), options(scene._scene(), limits), sensors, part, parts, state)
     return state.bytes()

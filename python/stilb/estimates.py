@@ -50,8 +50,8 @@ class Errors(NamedTuple):
     @classmethod
     def of_statistic(cls, estimate: _stilb.Estimate, key: RunKey, name: str, residuals: Numbers, *,
                      has_rare_light_alone: bool) -> Errors:
-        """Of a number of a run with this name. `has_rare_light_alone`: whether its interval has nothing else above Student's
-        t."""
+        """The errors of the number of a run that has this name. `has_rare_light_alone`: whether rare light alone makes its
+        upper half-width larger than Student's t does."""
         own = {key: residuals}
         half_width = _half_width(own, key.confidence)
         margin = Margin(1.0, max(0.0, estimate.value - estimate.lower - half_width),
@@ -85,7 +85,7 @@ class Interval(tuple[End, End]):
 
 
 def _width_ratio(confidence: float, degrees: int) -> float:
-    """Of intervals of this confidence to those of 95 %."""
+    """The width of an interval of this confidence over that of a 95 % interval."""
     if not isinstance(confidence, float | int | np.floating) or not 0 < confidence < 1:
         raise InputError(f"confidence {confidence}: expected a probability between 0 and 1, such as 0.95.")
     if degrees < 1:
@@ -277,7 +277,7 @@ def _half_width(residuals: Mapping[RunKey, Numbers], confidence: float) -> float
 
 
 def _degrees(residuals: Mapping[RunKey, Numbers]) -> int:
-    """Of freedom; of several runs by Welch and Satterthwaite."""
+    """The degrees of freedom; those of several runs by Welch and Satterthwaite."""
     runs = [(_variance(differences), len(differences) - 1) for differences in residuals.values()]
     spread = sum(variance**2 / degrees for variance, degrees in runs)
     if not spread > 0:

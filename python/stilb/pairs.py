@@ -105,7 +105,7 @@ class Pair(BySensor[PairedReading]):
 
 
 def difference(after: Reading, before: Reading, statistic: str) -> Estimate:
-    """Of a statistic, replicate by replicate."""
+    """The difference of a statistic, with the error of the differences of its replicates."""
     a, b = (getattr(reading, statistic) for reading in (after, before))
     (own,), (other,) = (estimate._errors.residuals.values() for estimate in (a, b))
     key = after._key._replace(confidence=max(after._key.confidence, before._key.confidence))

@@ -42,8 +42,8 @@ def document_text(document: Mapping[str, Mapping[str, Any]]) -> str:
 
 
 def _table_text(name: str, place: str, table: Mapping[str, Any]) -> str:
-    """Of a table of keys; of parts, one each. Parts have a type or a shape; only defaults are tables without. `place`: the
-    table's name without quotation marks, for messages."""
+    """A table of keys as text; a table of tables as one text after another. `place`: the table's name without quotation
+    marks, for messages."""
     if table and all(isinstance(inner, Mapping) for inner in table.values()):
         return "\n".join(_table_text(f"{name}.{_key(key)}", f"{place}.{key}", inner) for key, inner in table.items())
     return f"[{name}]\n" + "".join(f"{_key(key)} = {value_text(inner, f'{place}.{key}')}\n" for key, inner in table.items())

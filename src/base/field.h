@@ -25,7 +25,7 @@
 
 namespace stilb {
 
-/// Of parameters that are true or false.
+/// The range that messages state for a parameter that is true or false.
 inline constexpr Range kTruth{0, 1, "true or false"};
 inline constexpr Range kAngle{-1e6, 1e6, "an angle from -1e6 to 1e6 degrees"};
 

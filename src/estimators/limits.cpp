@@ -73,12 +73,11 @@ void require_diffuse(const Scene& scene, std::string_view method) {
     }
 }
 
-void require_reflection_only(const Scene& scene) {
+const Scene& require_reflection_only(const Scene& scene) {
     for (const Object& object : scene.objects) {
         for (const MaterialId id : object.materials) {
             const NamedMaterial& used = scene.materials[index_of(id)];
-            if (lobes(used.material, materials::LightSide::outside, materials::Carried::flux).empty())
-                continue;
+            if (!is_composed(used.material)) continue;
             throw InputError(fmt::format(
                 "object \"{}\": its material \"{}\" is {} and lets light through, but methods with patches "
                 "keep "
@@ -86,6 +85,7 @@ void require_reflection_only(const Scene& scene) {
                 object.name, used.name, type_name(used.material)));
         }
     }
+    return scene;
 }
 
 void require_first_shot_of_points(const Scene& scene, FirstShotVariant variant, std::string_view method) {

@@ -31,9 +31,9 @@ std::vector<std::string> patch_warnings(const Scene& scene, std::string_view met
 /// Throws InputError, with object and material, where a material is neither diffuse nor
 /// black.
 void require_diffuse(const Scene& scene, std::string_view method);
-/// Throws InputError, with object and material, where a material is composed: patches keep the light that
-/// surfaces reflect.
-void require_reflection_only(const Scene& scene);
+/// The same scene. Throws InputError, with object and material, where a material is composed: patches keep
+/// the light that surfaces reflect.
+const Scene& require_reflection_only(const Scene& scene);
 /// Throws InputError where there are lights other than surfaces but no first shot: nothing else brings their
 /// light to patches.
 void require_first_shot_of_points(const Scene& scene, FirstShotVariant variant, std::string_view method);

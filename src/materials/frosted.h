@@ -4,8 +4,8 @@
 #include <array>
 #include <vector>
 
+#include "materials/facets/rough_interface.h"
 #include "materials/material.h"
-#include "materials/rough_interface.h"
 
 namespace stilb::materials {
 

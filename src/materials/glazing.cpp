@@ -40,20 +40,29 @@ const Shape& shape_of(double transmittance) { return transmittance > kClear ? kC
 double degrees_of(double cosine) { return std::acos(std::clamp(cosine, 0.0, 1.0)) * (180 / kPi); }
 
 /// The pane that transmits so much along the normal: T = (1-r)^2 a / (1 - r^2 a^2).
-ThinDielectric pane_of(double transmittance) {
+ThinDielectric pane_of(const Rgb& transmittance) {
     const double r = fresnel_reflectance(1, kClearIor).unpolarised(), through = (1 - r) * (1 - r);
-    const double root = std::sqrt(through * through + 4 * r * r * transmittance * transmittance);
-    const double inside = 2 * transmittance / (through + root);
-    return {kClearIor, Rgb::grey(std::min(inside, 1.0))};
+    ThinDielectric pane{kClearIor, {}};
+    for (std::size_t b = 0; b < kBands; ++b) {
+        const double t = transmittance[b];
+        pane.internal_transmittance[b] =
+            std::min(2 * t / (through + std::sqrt(through * through + 4 * r * r * t * t)), 1.0);
+    }
+    return pane;
 }
 
 }  // namespace
 
 std::optional<std::string> Glazing::Parameters::contradiction() const {
     const bool has_shares = transmittance.is_given() || reflectance.is_given() || back_reflectance.is_given();
-    if (visible_transmittance > 0 && has_shares)
-        return "visible_transmittance says all of an uncoated pane. Leave it out beside other shares.";
-    if (visible_transmittance > 0) return std::nullopt;
+    if (visible_transmittance.is_given()) {
+        if (has_shares)
+            return "visible_transmittance says all of an uncoated pane. Leave it out beside other shares.";
+        if (!visible_transmittance.is_along_normal())
+            return "visible_transmittance is that along the normal. A table over the angle is a "
+                   "transmittance.";
+        return std::nullopt;
+    }
     if (!transmittance.is_given() || !reflectance.is_given())
         return "visible_transmittance, or transmittance and reflectance, are missing.";
     const Glazing glazing(*this);
@@ -74,7 +83,8 @@ std::optional<std::string> Glazing::Parameters::contradiction() const {
 }
 
 Glazing::Glazing(const Parameters& parameters) : parameters_(parameters) {
-    if (!parameters.transmittance.is_given()) pane_ = pane_of(parameters.visible_transmittance);
+    if (parameters.visible_transmittance.is_given())
+        pane_ = pane_of(parameters.visible_transmittance.rows[0].share);
 }
 
 Rgb Glazing::straight_transmittance(double cosine) const {
@@ -89,7 +99,6 @@ Rgb Glazing::reflectance(LightSide side, double cosine) const {
     if (pane_) return pane_->shares(cosine).reflectance;
     const bool is_back = side == LightSide::inside && parameters_.back_reflectance.is_given();
     const SharesByAngle& shares = is_back ? parameters_.back_reflectance : parameters_.reflectance;
-    if (!shares.is_given()) return {};
     if (!shares.is_along_normal()) return shares.at(degrees_of(cosine));
     // From the normal's value to 1 along the surface.
     const double rise = shape_of(straight_transmittance(1).luminance()).reflectance(cosine);

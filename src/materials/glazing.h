@@ -24,8 +24,7 @@ inline constexpr Range kVisibleTransmittance{
 class Glazing {
   public:
     struct Parameters {
-        double visible_transmittance = 0;  ///< 0: not given
-        SharesByAngle transmittance, reflectance, back_reflectance;
+        SharesByAngle visible_transmittance, transmittance, reflectance, back_reflectance;
 
         static constexpr auto fields() {
             return std::tuple{

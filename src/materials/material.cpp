@@ -111,6 +111,10 @@ std::span<const Lobe> lobes(const Material& material, LightSide side, Carried ca
         material);
 }
 
+bool is_composed(const Material& material) {
+    return visit_model([]<typename M>(const M&) { return Composed<M>; }, material);
+}
+
 Rgb sent_on(const Material& material, double cosine) {
     return visit_model(
         [&]<typename M>(const M& model) {

@@ -58,6 +58,7 @@ struct Lobe {
 /// The lobes by which a path that meets the surface on this side goes on. Empty for materials that are not
 /// composed: these are their own only lobe.
 std::span<const Lobe> lobes(const Material& material, LightSide side, Carried carried);
+bool is_composed(const Material& material);
 /// Share of the light from an angle of this cosine that a material, or a lobe, sends on: to choose among
 /// lobes. Without a closed expression, the bound.
 Rgb sent_on(const Material& material, double cosine);

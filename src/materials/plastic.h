@@ -3,9 +3,9 @@
 
 #include <algorithm>
 
-#include "materials/albedo_table.h"
 #include "materials/dielectric.h"
-#include "materials/ggx.h"
+#include "materials/facets/albedo_table.h"
+#include "materials/facets/ggx.h"
 #include "materials/model.h"
 #include "math/sampling.h"
 

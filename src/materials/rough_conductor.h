@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "materials/albedo_table.h"
-#include "materials/ggx.h"
+#include "materials/facets/albedo_table.h"
+#include "materials/facets/ggx.h"
 #include "materials/model.h"
 
 namespace stilb::materials {
@@ -94,7 +94,7 @@ inline Rgb RoughConductor::brdf_by_facet_per_sr(const Vec3& in, const Vec3& out,
 
 inline double RoughConductor::pdf_by_facet_per_sr(const Vec3& in, const Vec3& out, const Vec3& half,
                                                   double loss_in) const {
-    return (1 - loss_in) * facets_.pdf_per_sr(in, half) + loss_in * loss_.pdf_of_cosine(out.z) / (2 * kPi);
+    return (1 - loss_in) * facets_.pdf_per_sr(in, half) + loss_in * loss_.pdf_per_sr(out.z);
 }
 
 inline Rgb RoughConductor::brdf_per_sr(const Vec3& in, const Vec3& out) const {
@@ -117,9 +117,7 @@ inline std::optional<ScatterSample> RoughConductor::sample(const Vec3& in, doubl
     const double multiple = loss_.at(in.z);
     Vec3 out;
     if (u1 < multiple) {
-        const double cosine = loss_.sample_cosine(u1 / multiple);
-        const double sine = std::sqrt((1 - cosine) * (1 + cosine)), phi = 2 * kPi * u2;
-        out = {sine * std::cos(phi), sine * std::sin(phi), cosine};
+        out = loss_.sample(u1 / multiple, u2);
     } else {
         const double u_facet = std::min((u1 - multiple) / (1 - multiple), math::kBelowOne);
         out = normalized(reflected(in, facets_.visible_normal(in, math::sample_unit_disk(u_facet, u2))));

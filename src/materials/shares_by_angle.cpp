@@ -5,11 +5,6 @@
 #include <algorithm>
 
 namespace stilb::materials {
-namespace {
-
-constexpr Range kDegrees{0, 90, "from 0 to 90 degrees"};
-
-}  // namespace
 
 Rgb SharesByAngle::at(double degrees) const {
     const auto above = std::ranges::upper_bound(rows, degrees, {}, &Row::degrees);
@@ -20,16 +15,20 @@ Rgb SharesByAngle::at(double degrees) const {
     return below.share * (1 - fraction) + above->share * fraction;
 }
 
+std::size_t SharesByAngle::first_out_of_order() const {
+    const auto found = std::ranges::adjacent_find(
+        rows, [](const Row& row, const Row& next) { return !(next.degrees > row.degrees); });
+    return found == rows.end() ? rows.size() : static_cast<std::size_t>(found - rows.begin()) + 1;
+}
+
 void expect_inside(const SharesByAngle& shares, const Range& range, const std::string& path) {
     for (std::size_t i = 0; i < shares.rows.size(); ++i) {
-        const auto& [degrees, share] = shares.rows[i];
         const std::string row = fmt::format("{}[{}]", path, i);
-        stilb::expect_inside(degrees, kDegrees, row + "[0]");
-        stilb::expect_inside(share, range, shares.is_along_normal() ? path : row + "[1]");
-        if (i > 0 && !(degrees > shares.rows[i - 1].degrees))
-            fail_at(row, fmt::format("the angle {} does not exceed that of the row before, {}.", degrees,
-                                     shares.rows[i - 1].degrees));
+        stilb::expect_inside(shares.rows[i].degrees, kDegreesToNormal, row + "[0]");
+        stilb::expect_inside(shares.rows[i].share, range, shares.is_along_normal() ? path : row + "[1]");
     }
+    const std::size_t wrong = shares.first_out_of_order();
+    if (wrong < shares.rows.size()) fail_at(fmt::format("{}[{}]", path, wrong), SharesByAngle::kOutOfOrder);
 }
 
 }  // namespace stilb::materials

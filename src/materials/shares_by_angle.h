@@ -1,7 +1,9 @@
 // Shares of the light by its angle, as data sheets give them.
 #pragma once
 
+#include <cstddef>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "base/field.h"
@@ -14,8 +16,6 @@ struct SharesByAngle {
     struct Row {
         double degrees = 0;  ///< to the normal
         Rgb share;
-
-        bool operator==(const Row&) const = default;
     };
     std::vector<Row> rows;  ///< ascending; empty where nothing is given
 
@@ -24,10 +24,22 @@ struct SharesByAngle {
     bool is_along_normal() const { return rows.size() == 1; }
     /// By the rows; the first and the last one hold beyond them.
     Rgb at(double degrees) const;
-    bool operator==(const SharesByAngle&) const = default;
+    /// The first row whose angle does not exceed that of the row before; the number of rows where there is
+    /// none.
+    std::size_t first_out_of_order() const;
+    static constexpr std::string_view kOutOfOrder = "its angle does not exceed that of the row before.";
 };
 
-/// As the functions of base/field.h. Angles must ascend from 0 to at most 90 degrees.
+/// Whether a parameter has a value: all but tables have one.
+template <typename Value>
+bool is_given(const Value&) {
+    return true;
+}
+inline bool is_given(const SharesByAngle& shares) { return shares.is_given(); }
+
+/// Of the angles.
+inline constexpr Range kDegreesToNormal{0, 90, "from 0 to 90 degrees"};
+/// As the functions of base/field.h.
 void expect_inside(const SharesByAngle& shares, const Range& range, const std::string& path);
 
 }  // namespace stilb::materials

@@ -22,18 +22,12 @@ std::string number_text(double value) { return fmt::format("{:.3g}", value); }
 std::string number_text(const Rgb& value) { return number_text(value.luminance()); }
 std::string number_text(bool value) { return value ? "yes" : "no"; }
 std::string number_text(const materials::SharesByAngle& value) {
-    return value.is_given() ? number_text(value.rows[0].share) + (value.is_along_normal() ? "" : " by angle")
-                            : "";
+    return number_text(value.rows[0].share) + (value.is_along_normal() ? "" : " by angle");
 }
 std::string number_text(const std::array<double, 2>& values) {
     return fmt::format("{} × {}", number_text(values[0]), number_text(values[1]));
 }
 
-template <typename Value>
-bool is_given(const Value&) {
-    return true;
-}
-bool is_given(const materials::SharesByAngle& value) { return value.is_given(); }
 /// "diffuse 0.45, exponent 40", but for the reflectance, which has a column of its own.
 std::string parameters_text(const Material& material) {
     return materials::visit_model(
@@ -41,7 +35,7 @@ std::string parameters_text(const Material& material) {
             std::string text;
             for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
                 const auto& value = materials::parameters_of(model).*field.member;
-                if (field.key == "reflectance" || !is_given(value)) return;
+                if (field.key == "reflectance" || !materials::is_given(value)) return;
                 text += fmt::format("{}{} {}", text.empty() ? "" : ", ", field.key, number_text(value));
             });
             return text;
@@ -125,7 +119,8 @@ Html materials_table(const Scene& scene) {
         const Rgb reflectance = line.reflectance();
         const std::string_view type = materials::type_name(material);
         std::string parameters = parameters_text(material);
-        if (passes_straight(material))
+        // Types that have a transmittance state it themselves.
+        if (passes_straight(material) && parameters.find("transmittance ") == parameters.npos)
             parameters += fmt::format(", transmittance {}", number_text(straight_transmittance(material, 1)));
         if (line.colours > 1) parameters = fmt::format("{} colours", line.colours);
         table.add({swatch(reflectance) + text(line.name), text(type),

@@ -20,8 +20,7 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
         auto hit = caster.closest(origin, direction);
         if (!hit) return;
         Vec3 from = -direction;
-        const auto scattering =
-            choose_scattering(scene.material(hit->material), *hit, from, Carried::flux, stream);
+        const auto scattering = choose_lobe(scene.material(hit->material), *hit, from, Carried::flux, stream);
         if (!scattering) return;
         const Material& material = *scattering->material;
         flux *= scattering->weight;
@@ -40,8 +39,7 @@ void trace_light_path(const Scene& scene, const rays::RayCaster& caster, const L
             direction = branch->direction;
             continue;
         }
-        const double survival =
-            survival_probability(flux, scattering->lobe ? scattering->sent_on : reflectance_bound(material));
+        const double survival = survival_probability(flux, scattering->sent_on);
         if (stream.next() >= survival) return;
         flux *= 1 / survival;
         nodes.push_back({*hit, hit->shading_normal, from, &material, flux, ++reflections, only_by_light,

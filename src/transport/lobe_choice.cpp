@@ -2,12 +2,12 @@
 
 namespace stilb::transport {
 
-std::optional<Scattering> choose_scattering(const Material& material, rays::Hit& hit, Vec3& from,
-                                            materials::Carried carried, math::SampleStream& stream) {
+std::optional<LobeChoice> choose_lobe(const Material& material, rays::Hit& hit, Vec3& from,
+                                      materials::Carried carried, math::SampleStream& stream) {
     const std::span<const materials::Lobe> lobes = lobes_at(hit, material, carried);
-    if (lobes.empty()) return Scattering{&material};
+    if (lobes.empty()) return LobeChoice{&material, nullptr, 1, reflectance_bound(material)};
     const double cosine = dot(from, hit.normal);
-    Scattering chosen;
+    LobeChoice chosen;
     double own = 0, before = 0;
     for (const materials::Lobe& lobe : lobes) chosen.sent_on += materials::sent_on(lobe.scattering, cosine);
     const double all = chosen.sent_on.luminance(), u = stream.next() * all;

@@ -25,19 +25,19 @@ inline void cross(const materials::Lobe& lobe, rays::Hit& hit, Vec3& from) {
 }
 
 /// How a path goes on at a surface.
-struct Scattering {
+struct LobeChoice {
     const Material* material = nullptr;     ///< that of the surface, or of the lobe
     const materials::Lobe* lobe = nullptr;  ///< null where the material is not composed
     /// Of what the path carries: the lobe's own factor over the probability with which it was chosen.
     double weight = 1;
-    /// Share of the light that all lobes together send on, where there are lobes: the path survives with it,
-    /// since the lobe's own share is in its probability.
+    /// Share of the light that the surface sends on by all of its lobes: the path survives with it, since the
+    /// lobe's own share is in its probability.
     Rgb sent_on{};
 };
 /// Takes a path to the side of the surface from which it goes on: by one of the material's lobes, in
 /// proportion to the light that these send on, or by the material itself. Nothing where all light ends. Uses
 /// a number of the stream where there are lobes.
-std::optional<Scattering> choose_scattering(const Material& material, rays::Hit& hit, Vec3& from,
-                                            materials::Carried carried, math::SampleStream& stream);
+std::optional<LobeChoice> choose_lobe(const Material& material, rays::Hit& hit, Vec3& from,
+                                      materials::Carried carried, math::SampleStream& stream);
 
 }  // namespace stilb::transport

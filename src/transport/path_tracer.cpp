@@ -33,10 +33,9 @@ PathTracer::PathTracer(const Scene& scene, const rays::RayCaster& caster, const 
 
 namespace {
 
-/// `factor`: of the path's next step where its material is not composed.
-double survival_probability(const Path& path, const Rgb& factor, const Scattering& scattering) {
-    if (!scattering.lobe) return patient_survival_probability(path.throughput, factor);
-    return patient_survival_probability(path.throughput * (1 / scattering.weight), scattering.sent_on);
+/// `sent_on`: the share of the light that the surface sends on.
+double survival_probability(const Path& path, const Rgb& sent_on, const LobeChoice& lobe) {
+    return patient_survival_probability(path.throughput * (1 / lobe.weight), sent_on);
 }
 
 }  // namespace
@@ -70,15 +69,15 @@ void PathTracer::follow(Path& path) const {
     }
 }
 
-std::optional<Scattering> PathTracer::follow_to_scattering(Path& path) const {
+std::optional<LobeChoice> PathTracer::follow_to_scattering(Path& path) const {
     for (;;) {
-        const auto scattering = choose_scattering(path);
+        const auto scattering = choose_lobe(path);
         if (!scattering || !is_specular(*scattering->material)) return scattering;
         if (!pass(path, *scattering)) return std::nullopt;
     }
 }
 
-bool PathTracer::pass(Path& path, const Scattering& specular) const {
+bool PathTracer::pass(Path& path, const LobeChoice& specular) const {
     const auto ray = pass_specular(path, specular);
     if (!ray) return false;
     const auto next = caster_.closest(ray->origin, ray->direction);
@@ -90,15 +89,15 @@ bool PathTracer::pass(Path& path, const Scattering& specular) const {
     return next.has_value();
 }
 
-std::optional<Scattering> PathTracer::choose_scattering(Path& path) const {
-    const auto scattering = transport::choose_scattering(material(path.hit), path.hit, path.outgoing,
-                                                         Carried::luminance, path.stream);
+std::optional<LobeChoice> PathTracer::choose_lobe(Path& path) const {
+    const auto scattering =
+        transport::choose_lobe(material(path.hit), path.hit, path.outgoing, Carried::luminance, path.stream);
     if (scattering) path.throughput *= scattering->weight;
     return scattering;
 }
 
 PathTracer::Step PathTracer::take_step(Path& path) const {
-    const auto scattering = choose_scattering(path);
+    const auto scattering = choose_lobe(path);
     if (!scattering) return {};
     if (is_specular(*scattering->material)) return {std::nullopt, pass_specular(path, *scattering)};
     if (path.reflections_left == 0) return {};
@@ -115,10 +114,11 @@ void PathTracer::add_stored_reflection(std::span<Path> paths, rays::Coherence co
     stored_->add_to(reflecting, coherence);
 }
 
-std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Scattering& specular) const {
+std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const LobeChoice& specular) const {
     const auto branch = choose_specular_ray(*specular.material, path.hit, path.outgoing, Carried::luminance,
                                             path.stream.next());
-    const double survival = branch ? survival_probability(path, branch->share, specular) : 0;
+    const double survival =
+        branch ? survival_probability(path, specular.lobe ? specular.sent_on : branch->share, specular) : 0;
     if (path.stream.next() >= survival) return std::nullopt;
     path.throughput *= branch->share * (branch->luminance_factor / survival);
     if (!branch->straight) {
@@ -129,7 +129,7 @@ std::optional<rays::Ray> PathTracer::pass_specular(Path& path, const Scattering&
     return rays::Ray{branch->origin, branch->direction};
 }
 
-PathTracer::Step PathTracer::reflect(Path& path, const Scattering& scattering) const {
+PathTracer::Step PathTracer::reflect(Path& path, const LobeChoice& scattering) const {
     Step step;
     const rays::Hit& hit = path.hit;
     const materials::ShadedSurface surface(*scattering.material, hit.normal, hit.shading_normal);
@@ -144,7 +144,7 @@ PathTracer::Step PathTracer::reflect(Path& path, const Scattering& scattering) c
                            path.throughput * brdf_per_sr * (in.z * weight) * light->normal_illuminance_lx,
                            light->light};
     }
-    const double survival = survival_probability(path, reflectance_bound(*scattering.material), scattering);
+    const double survival = survival_probability(path, scattering.sent_on, scattering);
     if (path.stream.next() >= survival) return step;
     const auto [u1, u2] = path.stream.next_two();
     const auto scattered = surface.sample_incoming(out, u1, u2);

@@ -87,7 +87,7 @@ class PathTracer {
 
     /// Follows a path through mirrors and glass to the next surface that scatters, on the side where light
     /// arrives. Nothing where the path ends before.
-    std::optional<Scattering> follow_to_scattering(Path& path) const;
+    std::optional<LobeChoice> follow_to_scattering(Path& path) const;
 
     /// Light from one source at `surface`, shadows included; nothing where none arrives.
     std::optional<IncidentLight> sample_light(const rays::Hit& surface, math::SampleStream& stream) const;
@@ -140,11 +140,11 @@ class PathTracer {
     Step take_step(Path& path) const;
     /// The light of the left-out lights that the paths' surfaces reflect.
     void add_stored_reflection(std::span<Path> paths, rays::Coherence coherence) const;
-    std::optional<Scattering> choose_scattering(Path& path) const;
-    std::optional<rays::Ray> pass_specular(Path& path, const Scattering& specular) const;
+    std::optional<LobeChoice> choose_lobe(Path& path) const;
+    std::optional<rays::Ray> pass_specular(Path& path, const LobeChoice& specular) const;
     /// Moves a path through a specular surface to the next one; false where it ends.
-    bool pass(Path& path, const Scattering& specular) const;
-    Step reflect(Path& path, const Scattering& scattering) const;
+    bool pass(Path& path, const LobeChoice& specular) const;
+    Step reflect(Path& path, const LobeChoice& scattering) const;
     /// Continues where the step's ray has hit a surface.
     void arrive(Path& path, const Vec3& direction, const rays::Hit& next) const;
     /// Continues where the step's ray leaves the scene.

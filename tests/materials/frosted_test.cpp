@@ -10,6 +10,7 @@
 
 #include "materials/glazing.h"
 #include "materials/material.h"
+#include "materials/straight.h"
 #include "math/sampling.h"
 #include "support/direction_grid.h"
 #include "support/random_pairs.h"
@@ -93,6 +94,18 @@ TEST(Frosted, KeepsAllLightOnBothSides) {
     }
 }
 
+TEST(Frosted, VanishesInAMediumOfItsOwnKind) {
+    const auto is_seen = [](double excess) {
+        const Frosted body({1.5, 0.3, false, 1.5 / (1 + excess)});
+        return !body.lobes(LightSide::outside, Carried::flux)[0].scattering.is<Straight>();
+    };
+    for (const double sign : {1.0, -1.0}) {
+        EXPECT_FALSE(is_seen(0.99e-4 * sign));
+        EXPECT_TRUE(is_seen(1.01e-4 * sign));
+    }
+    EXPECT_FALSE(is_seen(0));
+}
+
 /// f / n'^2 is the same in both directions: so is what lies between the factors of flux and luminance.
 TEST(Frosted, IsTheSameFromBothSides) {
     RandomPairs random(3);
@@ -148,7 +161,7 @@ TEST(Frosted, SamplesFollowTheirDensity) {
 
 TEST(Glazing, HasTheShapeOfItsKind) {
     Glazing::Parameters parameters;
-    parameters.visible_transmittance = 0.7;
+    parameters.visible_transmittance = SharesByAngle::along_normal(Rgb::grey(0.7));
     const Glazing clear(parameters);
     EXPECT_NEAR(clear.straight_transmittance(1)[0], 0.7, 1e-12);
     // Radiance's transmissivity of that transmittance.
@@ -195,7 +208,7 @@ TEST(Glazing, RefusesContradictions) {
     parameters.transmittance = {{{0, Rgb::grey(0.8)}, {90, Rgb::grey(0.3)}}};
     parameters.reflectance = {{{0, Rgb::grey(0.1)}, {90, Rgb::grey(1)}}};
     EXPECT_TRUE(parameters.contradiction()->starts_with("at "));
-    parameters.visible_transmittance = 0.5;
+    parameters.visible_transmittance = SharesByAngle::along_normal(Rgb::grey(0.5));
     EXPECT_TRUE(parameters.contradiction()->starts_with("visible_transmittance says all"));
 }
 

@@ -277,8 +277,7 @@ int run_sweep(const SweepFlags& flags, const std::string& csv, bool quiet,
         if (measurement.options.by != "none")
             throw InputError(
                 "--vary has one table of all light: take --by with one variant at a time, or "
-                "stilb.sweep(..., by=...) "
-                "in Python.");
+                "stilb.sweep(..., by=...) in Python.");
         TerminalProgress progress;
         ProgressSink* const shown = quiet ? nullptr : &progress;
         const bool is_first = !first;

@@ -21,10 +21,10 @@ class SharedPoint {
     /// `from`: the place where light arrives, by the scattering of a path that has met `hit`. Light for
     /// receivers that are farther from their sensors may have met fewer surfaces: only receivers with the
     /// same count as `own` share.
-    SharedPoint(const rays::Hit& hit, const rays::Hit& from, const transport::Scattering& scattering,
+    SharedPoint(const rays::Hit& hit, const rays::Hit& from, const transport::LobeChoice& scattering,
                 const PointTile& tile, std::size_t own, const Vec3& center)
         : surface_(*scattering.material, from.normal, from.shading_normal),
-          sent_on_(scattering.lobe ? scattering.sent_on : reflectance_bound(*scattering.material)),
+          sent_on_(scattering.sent_on),
           met_(hit),
           crosses_(from.on_front != hit.on_front),
           tile_(tile) {
@@ -195,8 +195,8 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
         math::SampleStream next = stream;
         rays::Hit from = *hit;
         Vec3 back = -sample->direction;
-        const auto scattering = transport::choose_scattering(tracer_.material(*hit), from, back,
-                                                             transport::Carried::luminance, next);
+        const auto scattering =
+            transport::choose_lobe(tracer_.material(*hit), from, back, transport::Carried::luminance, next);
         if (!scattering) continue;
         if (is_specular(*scattering->material)) {
             transport::LightParts parts;
@@ -212,7 +212,7 @@ void Gather::trace_round(const PointTile& tile, math::RandomKey key, std::uint64
     }
 }
 
-void Gather::share_out(const rays::Hit& hit, const rays::Hit& from, const transport::Scattering& scattering,
+void Gather::share_out(const rays::Hit& hit, const rays::Hit& from, const transport::LobeChoice& scattering,
                        const PointTile& tile, std::size_t own, math::SampleStream& stream, double weight,
                        Tally& sums) const {
     SharedPoint shared(hit, from, scattering, tile, own, caster_.center());

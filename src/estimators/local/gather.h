@@ -43,7 +43,7 @@ class Gather {
     void trace_round(const PointTile& tile, math::RandomKey key, std::uint64_t round, double weight,
                      Tally& sums) const;
     /// `from`: where light arrives that is scattered at `hit`.
-    void share_out(const rays::Hit& hit, const rays::Hit& from, const transport::Scattering& scattering,
+    void share_out(const rays::Hit& hit, const rays::Hit& from, const transport::LobeChoice& scattering,
                    const PointTile& tile, std::size_t own, math::SampleStream& stream, double weight,
                    Tally& sums) const;
 

@@ -173,8 +173,8 @@ RaySamples sample_rays(const rays::RayCaster& caster, const transport::PathTrace
         math::SampleStream next = stream;
         rays::Hit from = *hit;
         Vec3 back = -direction;
-        const auto scattering = transport::choose_scattering(tracer.material(*hit), from, back,
-                                                             transport::Carried::luminance, next);
+        const auto scattering =
+            transport::choose_lobe(tracer.material(*hit), from, back, transport::Carried::luminance, next);
         if (!scattering) continue;
         if (is_specular(*scattering->material)) {
             rays[i].g_per_m2 = std::numeric_limits<double>::infinity();

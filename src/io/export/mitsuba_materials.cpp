@@ -90,7 +90,7 @@ struct MitsubaMaterial {
             return two_sided(id, "diffuse", color("reflectance", stated_reflectance(Material(m))));
         }
         warn("Mitsuba's roughdielectric loses the light that meets several facets.");
-        return dielectric("roughdielectric", m.parameters().ior, 1,
+        return dielectric("roughdielectric", m.parameters().ior, m.parameters().outside_ior,
                           "      <string name=\"distribution\" value=\"ggx\"/>\n" +
                               real("alpha", m.parameters().roughness));
     }

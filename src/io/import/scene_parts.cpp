@@ -24,10 +24,7 @@ struct MaterialTable {
         const auto& parameters = materials::parameters_of(model);
         for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
             const auto& value = parameters.*field.member;
-            if constexpr (requires { value.is_given(); }) {
-                if (!value.is_given()) return;
-            }
-            members.push_back({std::string(field.key), 0, toml_value(value)});
+            if (materials::is_given(value)) members.push_back({std::string(field.key), 0, toml_value(value)});
         });
         return members;
     }

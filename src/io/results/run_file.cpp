@@ -44,6 +44,9 @@ class Fingerprint {
             hash_ = hash_of({reinterpret_cast<const char*>(&value), sizeof value}, hash_);
         }
     }
+    void add(const materials::SharesByAngle& shares) {
+        for (const materials::SharesByAngle::Row& row : shares.rows) add(row);
+    }
     std::string text() const { return fmt::format("{:016x}", hash_); }
 
   private:
@@ -104,14 +107,8 @@ std::string fingerprint_of(const Scene& scene) {
         materials::visit_model(
             [&]<typename Model>(const Model& model) {
                 print.add(Model::kType);
-                for_each_field<materials::ParametersOf<Model>>([&](const auto& field) {
-                    const auto& value = materials::parameters_of(model).*field.member;
-                    if constexpr (std::is_same_v<std::decay_t<decltype(value)>, materials::SharesByAngle>) {
-                        for (const materials::SharesByAngle::Row& row : value.rows) print.add(row);
-                    } else {
-                        print.add(value);
-                    }
-                });
+                for_each_field<materials::ParametersOf<Model>>(
+                    [&](const auto& field) { print.add(materials::parameters_of(model).*field.member); });
             },
             material.material);
     }

@@ -267,13 +267,11 @@ SceneFile read_scene_file(const std::filesystem::path& path, std::span<const std
 
 namespace {
 
-constexpr Range kRightAngle{0, 90, "from 0 to 90 degrees"};
-
 materials::SharesByAngle::Row read_row(const TomlItem& item, const Range& range) {
     const std::vector<TomlItem> elements = item.elements();
     if (elements.size() != 2)
         item.fail("a row is an angle in degrees and a share: [60, 0.7] or [60, [r, g, b]].");
-    return {elements[0].number(kRightAngle), elements[1].rgb(range)};
+    return {elements[0].number(materials::kDegreesToNormal), elements[1].rgb(range)};
 }
 
 }  // namespace
@@ -287,10 +285,8 @@ void read_value(const TomlItem& item, const Range& range, materials::SharesByAng
     value.rows.clear();
     for (const TomlItem& row : item.elements()) value.rows.push_back(read_row(row, range));
     if (value.is_along_normal()) item.fail("a table has two rows at least.");
-    for (std::size_t i = 1; i < value.rows.size(); ++i) {
-        if (value.rows[i].degrees <= value.rows[i - 1].degrees)
-            item.elements()[i].fail("its angle does not exceed that of the row before.");
-    }
+    const std::size_t wrong = value.first_out_of_order();
+    if (wrong < value.rows.size()) item.elements()[wrong].fail(materials::SharesByAngle::kOutOfOrder);
 }
 
 namespace {

@@ -148,12 +148,12 @@ struct Unrated {
             for (const transport::GlareSource& point : view.points) {
                 if (point.is_in_field) points.insert(point.light);
             }
-            for (const ObjectId sheet : view.sheets) sheets.insert(sheet);
+            for (const ObjectId diffuser : view.diffusers) diffusers.insert(diffuser);
         }
     }
 
     LightNumbers small, large, points;
-    std::set<ObjectId> sheets;
+    std::set<ObjectId> diffusers;
 };
 
 /// "light "a" and 2 more".
@@ -170,11 +170,11 @@ void warn(const std::string& sensor, std::string_view what, const LightNumbers& 
         fmt::format("sensor \"{}\": {} of {} {}", sensor, what, names_of(numbers, scene), text));
 }
 
-/// "object "a" and 2 more lets light through, whose glare is not known".
-std::string text_on_sheets(const std::set<ObjectId>& sheets, const Scene& scene) {
-    const std::string more = sheets.size() > 1 ? fmt::format(" and {} more", sheets.size() - 1) : "";
+/// "object "a" and 2 more may glare by the light that it scatters as it lets it through".
+std::string text_on_diffusers(const std::set<ObjectId>& diffusers, const Scene& scene) {
+    const std::string more = diffusers.size() > 1 ? fmt::format(" and {} more", diffusers.size() - 1) : "";
     return fmt::format("object \"{}\"{} may glare by the light that it scatters as it lets it through",
-                       scene.object(*sheets.begin()).name, more);
+                       scene.object(*diffusers.begin()).name, more);
 }
 
 void warn_of_sources(const Sensor& sensor, const Unrated& unrated, const Scene& scene,
@@ -259,7 +259,7 @@ constexpr Estimate kUnknown{kInfinite, 0, kInfinite, kInfinite};
 void rate_unified(const std::vector<Glare>& views, double confidence, SensorEstimates& estimates) {
     const Unrated unrated(views);
     std::optional<statistics::GridSummary> complete;
-    if (!unrated.large.empty() || !unrated.points.empty() || !unrated.sheets.empty()) {
+    if (!unrated.large.empty() || !unrated.points.empty() || !unrated.diffusers.empty()) {
         complete = {kUnknown, kUnknown, kUnknown, kUndefinedEstimate, kUndefinedEstimate};
     } else if (!unrated.small.empty()) {
         SensorEstimates in_all = estimates;
@@ -307,9 +307,9 @@ std::vector<std::string> GlareViews::warnings(const Scene& scene, std::span<cons
         if (!sensors[s].rates_glare()) continue;
         const Unrated unrated(views_[s]);
         warn_of_sources(sensors[s], unrated, scene, warnings);
-        if (!unrated.sheets.empty())
+        if (!unrated.diffusers.empty())
             warnings.push_back(fmt::format("sensor \"{}\": {}: UGR counts it as background.", sensors[s].name,
-                                           text_on_sheets(unrated.sheets, scene)));
+                                           text_on_diffusers(unrated.diffusers, scene)));
         if (!daylight_views_[s].empty()) warn_of_dim_views(sensors[s], illuminances[s], warnings);
         warn_of_points(sensors[s], unrated.points, scene, warnings);
         warn_of_points(sensors[s], points_of(daylight_views_[s]), scene, warnings);
@@ -332,7 +332,7 @@ std::string GlareViews::reason_of_doubt(std::size_t sensor, const SensorEstimate
     std::vector<std::string> reasons;
     if (!unrated.points.empty())
         reasons.push_back(fmt::format("{} has no luminous area", names_of(unrated.points, scene)));
-    if (!unrated.sheets.empty()) reasons.push_back(text_on_sheets(unrated.sheets, scene));
+    if (!unrated.diffusers.empty()) reasons.push_back(text_on_diffusers(unrated.diffusers, scene));
     if (!unrated.large.empty())
         reasons.push_back(fmt::format("{} is more than 0.1 sr, for which UGR was not made",
                                       names_of(unrated.large, scene)));

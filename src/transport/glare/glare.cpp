@@ -176,10 +176,10 @@ Glare find_glare(const MeasuringPoint& at, const Scene& scene, const rays::RayCa
     const Eye eye(at, caster, lights);
     for (std::uint32_t i = 0; i < scene.objects.size(); ++i) {
         const Object& object = scene.objects[i];
-        const bool is_sheet = std::ranges::any_of(object.materials, [&](MaterialId material) {
+        const bool is_diffuser = std::ranges::any_of(object.materials, [&](MaterialId material) {
             return scatters_through(scene.material(material));
         });
-        if (is_sheet && is_in_front(bounds_of(object.shape), at)) glare.sheets.push_back(ObjectId{i});
+        if (is_diffuser && is_in_front(bounds_of(object.shape), at)) glare.diffusers.push_back(ObjectId{i});
     }
     for (std::uint32_t i = 0; i < scene.lights.size(); ++i) {
         switch (location_of(scene.lights[i])) {

@@ -48,7 +48,7 @@ struct Glare {
     std::vector<GlareSource> points;   ///< the same without a luminous area: their L and w are 0
     /// In front of the eye: objects that scatter the light that they let through, and so may glare
     /// themselves.
-    std::vector<ObjectId> sheets;
+    std::vector<ObjectId> diffusers;
     /// The illuminance at the eye by all lamps, points included, by independent samples of them.
     std::vector<double> direct_of_replicates_lx;
 };

@@ -47,8 +47,10 @@ Json json_of(const NamedMaterial& material) {
             const Parameters& parameters = materials::parameters_of(model);
             json["type"] = M::kType;
             json["colour"] = json_of(materials::stated_reflectance(material.material));
-            for_each_field<Parameters>(
-                [&](const auto& field) { json[field.key] = value_json(parameters.*field.member); });
+            for_each_field<Parameters>([&](const auto& field) {
+                const auto& value = parameters.*field.member;
+                if (materials::is_given(value)) json[field.key] = value_json(value);
+            });
         },
         material.material);
     return json;

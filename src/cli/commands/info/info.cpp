@@ -178,7 +178,7 @@ std::string material_text(const Json& material) {
                                                 "internal_transmittance"};
     std::string parameters;
     for (const auto& [key, value] : material.items()) {
-        if (!left_out.contains(key))
+        if (!left_out.contains(key) && !key.ends_with("_by_angle"))
             parameters +=
                 fmt::format("{}{} {}", parameters.empty() ? " (" : ", ", key, parameter_text(value));
     }

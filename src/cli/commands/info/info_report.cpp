@@ -32,8 +32,8 @@ Json extent_json(const Bounds& bounds) {
 Json parameter_json(double value) { return value; }
 Json parameter_json(const Rgb& value) { return value.luminance(); }
 Json parameter_json(bool value) { return value; }
+/// Rows of an angle and the luminance of a share.
 Json parameter_json(const materials::SharesByAngle& value) {
-    if (value.is_along_normal()) return parameter_json(value.rows[0].share);
     Json rows = Json::array();
     for (const auto& [degrees, share] : value.rows) rows.push_back({degrees, share.luminance()});
     return rows;
@@ -51,6 +51,14 @@ void add_parameters(Json& json, const Parameters& parameters) {
         const auto& value = parameters.*field.member;
         if constexpr (std::same_as<decltype(value), const Rgb&>) {
             if (field.key == "reflectance") return void(json["rgb"] = value.band);
+        } else if constexpr (std::same_as<decltype(value), const materials::SharesByAngle&>) {
+            const std::string key(field.key);
+            if (value.is_along_normal()) {
+                json[key] = parameter_json(value.rows[0].share);
+            } else if (value.is_given()) {
+                json[key + "_by_angle"] = parameter_json(value);
+            }
+            return;
         }
         json[std::string(field.key)] = parameter_json(value);
     });

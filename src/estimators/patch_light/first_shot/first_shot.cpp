@@ -109,7 +109,7 @@ FirstShotOptions first_shot_options(const PatchOptions& asked) {
 
 FirstShotPatches::FirstShotPatches(const Scene& all, const rays::RayCaster& rays, const PatchOptions& asked,
                                    const Monitor& monitor)
-    : scene((require_reflection_only(all), all)),
+    : scene(require_reflection_only(all)),
       caster(rays),
       options(asked),
       lights(scene, caster),

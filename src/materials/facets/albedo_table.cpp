@@ -1,4 +1,4 @@
-#include "materials/albedo_table.h"
+#include "materials/facets/albedo_table.h"
 
 #include <algorithm>
 #include <cmath>
@@ -48,6 +48,12 @@ AlbedoTable::CellPosition AlbedoTable::position_of(double cosine) const {
 double AlbedoTable::at(double cosine) const {
     const CellPosition position = position_of(cosine);
     return values_[position.cell] + position.fraction * (values_[position.cell + 1] - values_[position.cell]);
+}
+
+Vec3 AlbedoTable::sample(double u1, double u2) const {
+    const double cosine = sample_cosine(u1);
+    const double sine = std::sqrt((1 - cosine) * (1 + cosine)), phi = 2 * kPi * u2;
+    return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
 double AlbedoTable::sample_cosine(double u) const {

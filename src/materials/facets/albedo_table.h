@@ -7,6 +7,8 @@
 #include <optional>
 #include <span>
 
+#include "base/vec.h"
+
 namespace stilb::materials {
 
 /// Piecewise linear in log(1 + cosine / alpha), which resolves cosines near alpha, where facets shadow
@@ -23,12 +25,15 @@ class AlbedoTable {
     std::span<const double> values() const { return values_; }
     double cells_per_log() const { return cells_per_log_; }
 
-    /// Samples a cosine with a density near at(c) 2 c / average().
-    double sample_cosine(double u) const;
-    /// The density of sample_cosine(), per unit of the cosine; 0 where the average is 0.
-    double pdf_of_cosine(double cosine) const;
+    /// Samples a direction by its cosine, with a density near at(c) c / (pi average()).
+    Vec3 sample(double u1, double u2) const;
+    /// The density of sample(); 0 where the average is 0.
+    double pdf_per_sr(double cosine) const { return pdf_of_cosine(cosine) / (2 * kPi); }
 
   private:
+    double sample_cosine(double u) const;
+    /// The density of sample_cosine(), per unit of the cosine.
+    double pdf_of_cosine(double cosine) const;
     static constexpr std::size_t kCells = 128;
     struct CellPosition {
         std::size_t cell = 0;

@@ -1,4 +1,4 @@
-#include "materials/rough_interface.h"
+#include "materials/facets/rough_interface.h"
 
 #include <algorithm>
 #include <array>
@@ -34,15 +34,21 @@ AlbedoTable reflected_table(const FacetSide& side, bool passing) {
     });
 }
 
-AlbedoTable transmitted_table(const FacetSide& side) {
-    if (side.is_sheet) return reflected_table(side, true);
+template <int kRings>
+AlbedoTable refracted_table(const FacetSide& side) {
     const Ggx facets(side.roughness);
     return AlbedoTable(side.roughness, [&](double cosine) {
-        return mean_over_visible_normals<256>(facets, cosine, [&](const Vec3& in, const Vec3& normal) {
+        return mean_over_visible_normals<kRings>(facets, cosine, [&](const Vec3& in, const Vec3& normal) {
             const auto out = refracted(in, normal, side.ior);
             return out ? (1 - side.reflected(dot(in, normal))) * facets.shown(*out) : 0;
         });
     });
+}
+
+AlbedoTable transmitted_table(const FacetSide& side) {
+    if (side.is_sheet) return reflected_table(side, true);
+    constexpr int usual = 64, for_edges = 256;
+    return side.ior < 1 ? refracted_table<for_edges>(side) : refracted_table<usual>(side);
 }
 
 /// The mean over the directions of diffuse light.
@@ -51,11 +57,6 @@ double mean_reflected(const FacetSide& side) {
     double sum = 0;
     for (int i = 0; i < kSteps; ++i) sum += side.reflected(std::sqrt((i + 0.5) / kSteps));
     return sum / kSteps;
-}
-
-Vec3 around_normal(double cosine, double u) {
-    const double sine = std::sqrt((1 - cosine) * (1 + cosine)), phi = 2 * kPi * u;
-    return {sine * std::cos(phi), sine * std::sin(phi), cosine};
 }
 
 }  // namespace
@@ -83,8 +84,7 @@ FacetLosses::FacetLosses(const FacetAlbedos& near_side, const FacetAlbedos& far_
     if (std::min(of_near, of_far) <= kLeastLoss) return;
     const double crossing = of_near < of_far ? of_near * (1 - mean_reflected(near.side))
                                              : of_far * (1 - mean_reflected(far.side));
-    reflected_near = 1 - crossing / of_near;
-    reflected_far = 1 - crossing / of_far;
+    reflected = 1 - crossing / of_near;
 }
 
 MirroringFacets::MirroringFacets(const FacetAlbedos& albedos, bool passing, double lost_share)
@@ -106,15 +106,14 @@ Rgb MirroringFacets::brdf_per_sr(const Vec3& in, const Vec3& out) const {
 
 double MirroringFacets::pdf_per_sr(const Vec3& in, const Vec3& out) const {
     const double lost = lost_probability(in.z);
-    return (1 - lost) * facets_.pdf_per_sr(in, half_vector(in, out)) +
-           lost * lost_.pdf_of_cosine(out.z) / (2 * kPi);
+    return (1 - lost) * facets_.pdf_per_sr(in, half_vector(in, out)) + lost * lost_.pdf_per_sr(out.z);
 }
 
 std::optional<ScatterSample> MirroringFacets::sample(const Vec3& in, double u1, double u2) const {
     const double lost = lost_probability(in.z);
     Vec3 out;
     if (u1 < lost) {
-        out = around_normal(lost_.sample_cosine(u1 / lost), u2);
+        out = lost_.sample(u1 / lost, u2);
     } else {
         const double u = std::min((u1 - lost) / (1 - lost), math::kBelowOne);
         out = normalized(reflected(in, facets_.visible_normal(in, math::sample_unit_disk(u, u2))));
@@ -132,7 +131,7 @@ RefractingFacets::RefractingFacets(const FacetLosses& losses, Carried carried)
       once_(losses.near.transmitted),
       lost_near_(losses.near.lost),
       lost_far_(losses.far.lost),
-      lost_share_(1 - losses.reflected_near),
+      lost_share_(1 - losses.reflected),
       carried_(Carried::flux) {
     concentration_ = concentration_at_normal_incidence(*this);
     carried_ = carried;
@@ -168,7 +167,7 @@ double RefractingFacets::value_per_sr(const Vec3& near, const Vec3& far) const {
 
 double RefractingFacets::pdf_per_sr(const Vec3& in, const Vec3& out) const {
     const double lost = lost_probability(in.z);
-    double density = lost > 0 ? lost * lost_far_.pdf_of_cosine(out.z) / (2 * kPi) : 0;
+    double density = lost > 0 ? lost * lost_far_.pdf_per_sr(out.z) : 0;
     if (const auto met = facet(in, out)) {
         density += (1 - lost) * facets_.distribution_per_sr(met->normal) * facets_.shown(in) *
                    met->near_cosine * met->jacobian / in.z;
@@ -180,7 +179,7 @@ std::optional<ScatterSample> RefractingFacets::sample(const Vec3& in, double u1,
     const double lost = lost_probability(in.z);
     std::optional<Vec3> out;
     if (u1 < lost) {
-        out = around_normal(lost_far_.sample_cosine(u1 / lost), u2);
+        out = lost_far_.sample(u1 / lost, u2);
     } else {
         const double u = std::min((u1 - lost) / (1 - lost), math::kBelowOne);
         out = refracted(in, facets_.visible_normal(in, math::sample_unit_disk(u, u2)), ior_);

@@ -7,8 +7,8 @@
 // docs/materials.md.
 #pragma once
 
-#include "materials/albedo_table.h"
-#include "materials/ggx.h"
+#include "materials/facets/albedo_table.h"
+#include "materials/facets/ggx.h"
 #include "materials/model.h"
 
 namespace stilb::materials {
@@ -23,7 +23,6 @@ struct FacetSide {
 
     /// Share of the light that a facet reflects. `cosine`: to the facet's normal.
     double reflected(double cosine) const;
-    bool operator==(const FacetSide&) const = default;
 };
 
 /// The light that facets send on, by the cosine of its direction.
@@ -34,12 +33,12 @@ struct FacetAlbedos {
     AlbedoTable reflected, transmitted, lost;
 };
 
-/// What an interface loses leaves on either of its sides.
+/// Both sides of an interface, and where the light goes that the near one loses.
 struct FacetLosses {
     FacetAlbedos near, far;
-    /// Shares of what is lost that leave on the side that they came from. The light that crosses is as much
-    /// in both directions: (1 - near) A n^2 = (1 - far) A' n'^2, with A the average of each loss.
-    double reflected_near = 1, reflected_far = 1;
+    /// Its share that leaves on the near side. The light that crosses is as much in both directions: (1 -
+    /// this) A n^2 is the same from the far side, with A the average of a side's loss.
+    double reflected = 1;
 
     FacetLosses(const FacetAlbedos& near_side, const FacetAlbedos& far_side);
 };
