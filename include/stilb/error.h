@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#pragma GCC visibility push(default)
+
 namespace stilb {
 
 /// The position of an error in the user's files. An empty file or line 0 is left out of the message.
@@ -37,3 +39,5 @@ std::string nearest_name(std::string_view found, std::span<const std::string_vie
 std::string did_you_mean(std::string_view found, std::span<const std::string_view> allowed);
 
 }  // namespace stilb
+
+#pragma GCC visibility pop

@@ -16,6 +16,8 @@
 #include "stilb/options.h"
 #include "stilb/scene.h"
 
+#pragma GCC visibility push(default)
+
 namespace stilb::api {
 
 /// A value with its standard error and its 95 % interval. The interval also contains the error of patches,
@@ -208,3 +210,5 @@ Result luminance(const Scene& scene, std::span<const Ray> sights, const std::opt
                  const Control& control = {});
 
 }  // namespace stilb::api
+
+#pragma GCC visibility pop

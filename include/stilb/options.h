@@ -15,6 +15,8 @@
 
 #include "stilb/range.h"
 
+#pragma GCC visibility push(default)
+
 namespace stilb::api {
 
 /// The limits of a whole number.
@@ -148,3 +150,5 @@ struct Control {
 };
 
 }  // namespace stilb::api
+
+#pragma GCC visibility pop

@@ -3,6 +3,8 @@
 
 #include <string_view>
 
+#pragma GCC visibility push(default)
+
 namespace stilb {
 
 /// The range of a number, and its description for messages: "2 is not allowed. Allowed: {allowed}".
@@ -14,3 +16,5 @@ struct Range {
 };
 
 }  // namespace stilb
+
+#pragma GCC visibility pop

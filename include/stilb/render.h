@@ -14,6 +14,8 @@
 #include "stilb/options.h"
 #include "stilb/scene.h"
 
+#pragma GCC visibility push(default)
+
 namespace stilb::api {
 
 /// Pixels row by row from the top; NaN where the camera shows nothing.
@@ -69,3 +71,5 @@ Solution solve(const Scene& scene, const std::optional<Options>& options = {}, c
                const std::optional<int>& degree = {});
 
 }  // namespace stilb::api
+
+#pragma GCC visibility pop

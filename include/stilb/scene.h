@@ -16,6 +16,8 @@
 
 #include "stilb/options.h"
 
+#pragma GCC visibility push(default)
+
 namespace stilb::api {
 
 /// A position [m], a direction, or a colour (linear Rec. 709).
@@ -147,3 +149,5 @@ std::vector<std::string> validate(const Scene& scene);
 std::vector<std::string> validate(const SceneBuilder& builder);
 
 }  // namespace stilb::api
+
+#pragma GCC visibility pop

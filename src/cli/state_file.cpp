@@ -10,6 +10,7 @@
 #include "cli/progress.h"
 #include "io/text/file_kind.h"
 #include "io/text/table.h"
+#include "io/text/text.h"
 #include "run/pictures/picture_sums.h"
 #include "stilb/error.h"
 
@@ -121,7 +122,35 @@ void StateFile::write_if_due() {
     written_ = std::chrono::steady_clock::now();
 }
 
-std::string sums_of_picture(const Sensor& camera) { return fmt::format("picture {}", camera.name); }
+void add_part(Command& command, std::optional<std::string>& part) {
+    command
+        .add("--part", part,
+             "Make only part K of N of the samples of --paths, for several machines: --part 3/16. Needs "
+             "--state; stilb merge puts the parts together")
+        .value_name("K/N");
+}
+
+run::RunPart part_of(const std::string& text, const StateFlags& state) {
+    if (state.path.empty())
+        throw InputError("--part needs --state FILE: the samples of the part go there, for stilb merge.");
+    const std::size_t slash = std::min(text.find('/'), text.size());
+    const std::int64_t number = io::parse_integer(text.substr(0, slash)).value_or(0);
+    const std::int64_t parts = io::parse_integer(text.substr(std::min(slash + 1, text.size()))).value_or(0);
+    if (number < 1 || parts < number)
+        throw InputError(fmt::format("--part {}: expected K/N with K from 1 to N, such as 3/16.", text));
+    return {static_cast<std::size_t>(number - 1), static_cast<std::size_t>(parts)};
+}
+
+void read_arguments(const io::RunOrigin& origin, CommandLine& line) {
+    std::vector<const char*> arguments{"stilb", origin.command.c_str()};
+    for (const std::string& argument : origin.arguments) arguments.push_back(argument.c_str());
+    line.run(static_cast<int>(arguments.size()), arguments.data());
+}
+
+std::string path_from(const std::string& path, const io::RunOrigin& origin, const std::string& name) {
+    if (path.empty()) return path;
+    return (folder_of(origin, name) / path).lexically_normal().string();
+}
 
 std::vector<std::string> without_flags(std::vector<std::string> arguments,
                                        std::span<const std::string_view> flags) {

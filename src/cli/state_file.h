@@ -108,8 +108,16 @@ class KeepingState final : public PictureSink {
     StateFile& file_;
 };
 
-/// The name of a picture's sums in state files.
-std::string sums_of_picture(const Sensor& camera);
+/// Adds the flag --part.
+void add_part(Command& command, std::optional<std::string>& part);
+/// "3/16" as the third part, which has number 2. Throws InputError for other texts, and where no state is
+/// kept.
+run::RunPart part_of(const std::string& text, const StateFlags& state);
+
+/// Reads the arguments of a stored run into the request of its command, which the line has.
+void read_arguments(const io::RunOrigin& origin, CommandLine& line);
+/// A path of a stored run, which was given in its folder. `name`: of the state file.
+std::string path_from(const std::string& path, const io::RunOrigin& origin, const std::string& name);
 
 /// The arguments of a command without these flags and their values.
 std::vector<std::string> without_flags(std::vector<std::string> arguments,

@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "stilb/error.h"
+
 namespace stilb::run {
 namespace {
 
@@ -66,6 +68,14 @@ RunPlan RunPlan::read(ByteReader& bytes) {
             bytes.fail("a pace takes no samples");
     }
     return plan;
+}
+
+void require_part(const RunOptions& options, const RunPart& part) {
+    if (!options.paths)
+        throw InputError("a part of a run needs a number of paths: it cannot tell the error of the whole");
+    if (part.number >= part.of)
+        throw InputError(fmt::format("part {} of {} does not exist: the first one is 0, the last one {}",
+                                     part.number, part.of, std::max<std::size_t>(part.of, 1) - 1));
 }
 
 void RunState::merge(RunState other) {

@@ -50,12 +50,19 @@ struct RunPlan {
     bool operator==(const RunPlan&) const = default;
 };
 
-/// The strands number `number`, `number` + `of`, `number` + 2 `of` ... of a run, counted over all replicates.
+/// The strands number `number`, `number` + `of`, `number` + 2 `of` ... of a run, counted over all replicates;
+/// or the replicates of a picture with these numbers.
 struct RunPart {
     std::size_t number = 0, of = 1;
 
     bool has(std::size_t strand) const { return strand % of == number; }
 };
+
+/// Whether a run adds samples, or gives the result of those that there are.
+enum class Samples { as_asked, no_more };
+
+/// Throws InputError where the run has no such part, or no number of paths.
+void require_part(const RunOptions& options, const RunPart& part);
 
 /// A run between two of its batches.
 struct RunState {

@@ -97,6 +97,17 @@ RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunO
                     PictureSink* sink = nullptr, const std::atomic<bool>* interrupt = nullptr,
                     PictureSums* state = nullptr);
 
+/// The picture of the sums in `state`, without more passes, at the limits that the run had. Throws InputError
+/// where a replicate has none: the other parts are lacking.
+RenderResult result_of(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
+                       PictureSums& state, const std::atomic<bool>* interrupt = nullptr);
+
+/// Makes the passes of a part of the picture whose plan `state` has: as many as `options` asks of the whole
+/// picture. As measure_part(); a picture has as many parts at most as replicates, otherwise InputError.
+RunSummary render_part(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
+                       RunPart part, PictureSums& state, PictureSink* sink = nullptr,
+                       const std::atomic<bool>* interrupt = nullptr);
+
 /// Renders one camera from a solution, its groups of lights multiplied by factors: a few passes for smooth
 /// edges. Errors come from the solution's replicates. Throws InputError where the solution does not fit the
 /// scene, and for names that are no groups.

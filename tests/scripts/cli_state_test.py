@@ -178,6 +178,65 @@ class Merged(StateTest):
         self.assertIn("needs a number of paths", self.run_program("measure", self.scene, "--part", "1/2", "--state", "y.run", code=2).stderr)
 
 
+class MergedPictures(StateTest):
+    def setUp(self):
+        super().setUp()
+        self.scene = self.write("room.toml", ROOM + SMALL_CAMERA)
+        self.common = ["render", self.scene, "--paths", "24"]
+
+    def pixels(self, name):
+        return (self.folder / name).read_bytes().split(b"\n\n", 1)[1]
+
+    def parts(self, count, *more):
+        names = [f"part{number}.run" for number in range(1, count + 1)]
+        for number, name in enumerate(names, 1):
+            self.run_program(*self.common, "--part", f"{number}/{count}", "--state", name, *more)
+        return names
+
+    def test_parts_are_the_bits_of_the_whole(self):
+        parts = self.parts(4)
+        self.assertIn("part 3/4 of the passes, 6 in", self.run_program(*self.common, "--part", "3/4", "--state", "again.run").stdout)
+        self.assertIn("1 of 4 strands", self.run_program("info", "part2.run").stdout)
+        self.run_program(*self.common, "-o", "whole.hdr")
+        self.run_program("merge", *parts, "-o", "merged.hdr", "--state", "all.run")
+        self.assertEqual(self.pixels("whole.hdr"), self.pixels("merged.hdr"))
+        self.run_program("render", "--from", "all.run", "-o", "shown.hdr")
+        self.assertEqual(self.pixels("whole.hdr"), self.pixels("shown.hdr"))
+        self.run_program("render", self.scene, "--paths", "40", "-o", "longer.hdr")
+        self.run_program("resume", "all.run", "--paths", "40", "-o", "resumed.hdr")
+        self.assertEqual(self.pixels("longer.hdr"), self.pixels("resumed.hdr"))
+
+    def test_layers_of_parts(self):
+        parts = self.parts(2, "--by", "bounce")
+        self.run_program("merge", *parts, "-o", "merged.exr")
+        self.assertIn(b"Combined_", (self.folder / "merged.exr").read_bytes())
+
+    def test_seeds(self):
+        for seed in (1, 2):
+            self.run_program(*self.common, "--seed", seed, "-o", f"{seed}.exr", "--state", f"{seed}.run")
+        self.assertIn("render --from both.run", self.run_program("merge", "1.run", "2.run", "--state", "both.run").stdout)
+        shown = self.run_program("render", "--from", "both.run", "-o", "both.exr")
+        self.assertIn("48 passes", shown.stdout)
+        self.assertIn("seeds 1, 2", self.run_program("info", "both.run").stdout)
+        self.assertIn("cannot go on", self.run_program(*self.common, "-o", "x.exr", "--state", "both.run", code=2).stderr)
+
+    def test_refuses_what_does_not_belong_together(self):
+        one, _ = self.parts(2)
+        for arguments, words in (
+            (["merge", one, one, "-o", "x.hdr"], "both have made the same passes"),
+            (["merge", one, one], "-o is missing"),
+            (["merge", one, one, "--csv", "x", "-o", "x.hdr"], "--csv"),
+            (["merge", one, "-o", "x.hdr"], "only 2 of the 4 replicates"),
+            ([*self.common, "--part", "5/5", "--state", "five.run"], "has 4 replicates"),
+            ([*self.common, "--part", "1/2", "-o", "x.hdr", "--state", "y.run"], "--part makes no picture"),
+            (["render", "--from", one, "-o", "x.hdr"], "merge all of its parts"),
+            (["render", "--from", one, "-o", "x.hdr", "--seed", "3"], "--from shows the picture"),
+            (["measure", "--from", one], "not of `stilb measure`"),
+        ):
+            with self.subTest(words):
+                self.assertIn(words, self.run_program(*arguments, code=2).stderr)
+
+
 class Refused(StateTest):
     def setUp(self):
         super().setUp()

@@ -3,6 +3,7 @@ Stilb without its flags."""
 
 import json
 import os
+import re
 import subprocess
 import tempfile
 import unittest
@@ -41,6 +42,19 @@ class InstalledPackage(unittest.TestCase):
         self.assertLess(value, upper)
         self.assertLess(upper - lower, 0.03 * value)
         self.assertTrue((build / "door.png").read_bytes().startswith(b"\x89PNG"))
+
+    def test_a_shared_library_shows_the_public_interface_alone(self):
+        archive, library = self.prefix / "lib/libstilb.a", Path(self.folder.name) / "libstilb.so"
+        if not archive.exists():
+            (archive,) = self.prefix.glob("lib/*/libstilb.a")
+        run("g++", "-shared", "-o", library, "-Wl,--whole-archive", archive, "-Wl,--no-whole-archive")
+        symbols = run("nm", "-DC", "--defined-only", library).splitlines()
+        own = {match[1] for line in symbols if (match := re.search(r" [TBDR] (stilb::[\w:]+)", line))}
+        declared = " ".join(header.read_text() for header in (self.prefix / "include/stilb").glob("*.h"))
+        for name in own:
+            self.assertIn(name.split("::")[-1], declared, f"{name} is not part of the public interface")
+        for name in ("stilb::api::measure", "stilb::api::render", "stilb::InputError::InputError"):
+            self.assertIn(name, own)
 
     def test_program_has_manual_and_completions(self):
         self.assertEqual(run(self.prefix / "bin/stilb", "--version"), run(PROGRAM, "--version"))

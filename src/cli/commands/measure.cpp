@@ -120,20 +120,6 @@ int show(RunResult result, const Measurement& measurement, const MeasureRequest&
     return outputs.conclude(request.flags.exit_code_of(result, measurement.options));
 }
 
-/// "3/16" as the third part, which has number 2.
-run::RunPart part_of(const MeasureRequest& request) {
-    if (request.state.path.empty())
-        throw InputError("--part needs --state FILE: the samples of the part go there, for stilb merge.");
-    const std::size_t slash = std::min(request.part->find('/'), request.part->size());
-    const std::int64_t number = io::parse_integer(request.part->substr(0, slash)).value_or(0);
-    const std::int64_t parts =
-        io::parse_integer(request.part->substr(std::min(slash + 1, request.part->size()))).value_or(0);
-    if (number < 1 || parts < number)
-        throw InputError(
-            fmt::format("--part {}: expected K/N with K from 1 to N, such as 3/16.", *request.part));
-    return {static_cast<std::size_t>(number - 1), static_cast<std::size_t>(parts)};
-}
-
 /// Measures, or makes a part of the samples, with progress on the terminal.
 template <typename Measure>
 auto with_progress(const MeasureRequest& request, const RunOptions& options, StateFile& state_file,
@@ -148,7 +134,7 @@ auto with_progress(const MeasureRequest& request, const RunOptions& options, Sta
 int make_part(const MeasureRequest& request, const Measurement& measurement, StateFile& state_file,
               run::RunState& state) {
     const auto& [file, sensors, options] = measurement;
-    const run::RunPart part = part_of(request);
+    const run::RunPart part = part_of(*request.part, request.state);
     const RunSummary summary =
         with_progress(request, options, state_file, [&](auto* progress, const auto* interrupt) {
             return run::measure_part(file.scene, sensors, options, part, state, progress, interrupt);
@@ -213,12 +199,6 @@ int sweep(const MeasureRequest& request) {
                                                         overrides.end());
                          return prepared(variant);
                      });
-}
-
-/// A path of a stored run, which was given in its folder.
-std::string path_from(const std::string& path, const io::RunOrigin& origin, const std::string& file) {
-    if (path.empty()) return path;
-    return (folder_of(origin, file) / path).lexically_normal().string();
 }
 
 }  // namespace
@@ -298,12 +278,7 @@ Command declare(CommandLine& line, MeasureRequest& request) {
              "radiance: print irradiances [W/m2] instead of the table, a line \"R G B\" for each point, as "
              "rtrace -I -h does (docs/radiance.md)")
         .value_name("NAME");
-    command
-        .add("--part", request.part,
-             "Make only part K of N of the samples of --paths, for several machines: --part 3/16. Needs "
-             "--state; "
-             "stilb merge puts the parts together")
-        .value_name("K/N");
+    add_part(command, request.part);
     request.sweep.add_to(command);
     request.state.add_to(command);
     command
@@ -318,9 +293,7 @@ Command declare(CommandLine& line, MeasureRequest& request) {
 void read_request(const io::RunOrigin& origin, const std::string& file, CommandLine& line,
                   MeasureRequest& request) {
     declare(line, request).run([] { return kExitDone; });
-    std::vector<const char*> arguments{"stilb", "measure"};
-    for (const std::string& argument : origin.arguments) arguments.push_back(argument.c_str());
-    line.run(static_cast<int>(arguments.size()), arguments.data());
+    read_arguments(origin, line);
     take_scene_back(request);
     request.scene = path_from(request.scene, origin, file);
     request.points = path_from(request.points, origin, file);

@@ -119,7 +119,7 @@ class Reporting {
         TerminalProgress progress("passes", request_.flags.run.off_terminal());
         KeepingState keeping(shown(progress), state_file_);
         run::PictureSums& sums = pictures_.emplace_back();
-        state_file_.keep(sums_of_picture(camera), sums);
+        state_file_.keep(io::sums_of_picture(camera), sums);
         try {
             const RenderResult result =
                 run::render(scene, camera, view_options(request_, report_.options, *camera.camera()),

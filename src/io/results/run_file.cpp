@@ -22,7 +22,7 @@
 namespace stilb::io {
 namespace {
 
-constexpr std::uint32_t kRunVersion = 1;
+constexpr std::uint32_t kRunVersion = 2;
 constexpr std::string_view kBeginAgain = "Copy the file again, or begin the run again.";
 /// A state file has a chunk for its origin and one for each result; more are damaged bytes.
 constexpr std::uint32_t kMostChunks = 1 << 16;
@@ -289,7 +289,7 @@ RunTraits traits_of(const SceneFile& scene, std::span<const Sensor> sensors, con
     return traits;
 }
 
-void set_ending(const RunOrigin& origin, RunResult& result) {
+void set_ending(const RunOrigin& origin, run::RunSummary& result) {
     result.elapsed_s = origin.elapsed_s;
     // Merged parts are all that was asked for, and may have met the error.
     const StopReason ended = stop_reason_of(origin).value_or(StopReason::interrupted);
@@ -354,6 +354,8 @@ Sums read_sums(const StoredRun& stored, std::string_view name, const std::string
 template run::RunState read_sums(const StoredRun&, std::string_view, const std::string&);
 template run::SolutionState read_sums(const StoredRun&, std::string_view, const std::string&);
 template run::PictureSums read_sums(const StoredRun&, std::string_view, const std::string&);
+
+std::string sums_of_picture(const Sensor& camera) { return fmt::format("picture {}", camera.name); }
 
 std::string to_bytes(const StoredRun& stored) {
     std::string bytes;

@@ -46,6 +46,8 @@ struct RunOrigin {
 
 /// The name of the sums of readings.
 inline constexpr std::string_view kReadingSums = "readings";
+/// That of the sums of a camera's picture.
+std::string sums_of_picture(const Sensor& camera);
 
 /// The sums of one result of a run.
 struct StoredSums {
@@ -55,7 +57,7 @@ struct StoredSums {
 
 /// Gives the result of stored sums the time and the ending of their run; one that goes on counts as
 /// interrupted.
-void set_ending(const RunOrigin& origin, RunResult& result);
+void set_ending(const RunOrigin& origin, run::RunSummary& result);
 /// Whether the run has ended with nothing left to do at its limits.
 bool is_finished(const RunOrigin& origin);
 

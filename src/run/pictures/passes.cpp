@@ -16,13 +16,14 @@ constexpr std::uint64_t kPassesBeforePaces = 2;
 }  // namespace
 
 Passes::Passes(const estimators::Estimator& estimator, const std::vector<bool>& blind, PictureSums& sums,
-               PictureSink* sink, const Monitor& monitor, const PictureComparison* comparison)
+               PictureSink* sink, const Monitor& monitor, const PictureComparison* comparison, RunPart part)
     : estimator_(estimator),
       comparison_(comparison),
       monitor_(monitor),
       blind_(blind),
       sink_(sink),
       sums_(sums),
+      part_(part),
       pixels_(blind.size() * (1 + sums.layers())) {}
 
 double Passes::attained_error() const {
@@ -40,10 +41,10 @@ PictureComparison::Bias Passes::bias() const {
 
 void Passes::advance(std::uint64_t) {
     const RunPlan& plan = sums_.plan();
-    const std::uint64_t p = sums_.passes(), replicate = p % plan.replicates;
-    if (plan.has_paces && p == kPassesBeforePaces * plan.replicates) sums_.set_paces(blind_);
+    const std::uint64_t p = samples(), replicate = p % plan.replicates, round = p / plan.replicates;
+    if (plan.has_paces && !sums_.paces() && round == kPassesBeforePaces) sums_.set_paces(blind_);
     const math::RandomKey key = key_of_seed(plan.seed).derived(RunStream::picture).derived(replicate);
-    const std::vector<PicturePaces::Part> parts = parts_of_pass();
+    const std::vector<PicturePaces::Part> parts = parts_of_pass(replicate, round);
     std::vector<std::unique_ptr<const estimators::PicturePass>> started(parts.size());
     parallel_for(parts.size(), [&](std::size_t i) {
         started[i] = estimator_.start({{key}, parts[i].sample, replicate});
@@ -61,18 +62,25 @@ void Passes::advance(std::uint64_t) {
         monitor_.require_more();
         sample(tasks[i].block, tasks[i].pass);
     });
-    sums_.add(pixels_);
+    sums_.add(replicate, pixels_);
     for (const auto& [block, pass] : tasks) samples_ += static_cast<double>(block.pixels());
     require_mostly_finite(invalid_, samples_);
 }
 
-std::vector<PicturePaces::Part> Passes::parts_of_pass() const {
-    const std::uint64_t p = sums_.passes(), replicates = sums_.plan().replicates;
-    if (sums_.paces()) return sums_.paces()->parts_of(p % replicates, p / replicates);
+void Passes::complete_plan(std::uint64_t passes) {
+    const std::uint64_t first = kPassesBeforePaces * sums_.plan().replicates;
+    if (!sums_.plan().has_paces || passes <= first) return;
+    while (samples() < first) advance(1);
+    sums_.set_paces(blind_);
+}
+
+std::vector<PicturePaces::Part> Passes::parts_of_pass(std::uint64_t replicate, std::uint64_t round) const {
+    // A part of a run knows the paces from its beginning; the first passes take no notice.
+    if (sums_.paces() && round >= kPassesBeforePaces) return sums_.paces()->parts_of(replicate, round);
     // Blocks have another offset in every pass, so that their edges do not show.
     const math::RandomKey key = key_of_seed(sums_.plan().seed).derived(RunStream::picture_offset);
-    const auto [u, v] = math::SampleStream(key, p).next_two();
-    return {{p / replicates,
+    const auto [u, v] = math::SampleStream(key, round * sums_.plan().replicates + replicate).next_two();
+    return {{round,
              estimators::blocks_of(sums_.resolution(), {1 + static_cast<int>(u * estimators::kBlockSize),
                                                         1 + static_cast<int>(v * estimators::kBlockSize)})}};
 }

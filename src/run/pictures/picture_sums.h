@@ -1,11 +1,9 @@
 // The sums of a picture's passes, and the errors of its pixels.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
-#include <span>
 #include <vector>
 
 #include "base/bytes.h"
@@ -16,9 +14,9 @@
 
 namespace stilb::run {
 
-/// The plan of a picture and the sums of its passes: a value that another run continues. Pass p is of
-/// replicate p mod `replicates`, so that all replicates grow together. From some pass on, cells may have
-/// paces of their own; then not all of them take part in a pass.
+/// The plan of a picture and the sums of its passes: a value that another run continues, in parts or at
+/// another time. Pass p is of replicate p mod `replicates`, so that all replicates grow together. From some
+/// pass on, cells may have paces of their own; then not all of them take part in a pass.
 class PictureSums {
   public:
     PictureSums() = default;
@@ -32,12 +30,23 @@ class PictureSums {
     void write(ByteWriter& bytes) const;
     static PictureSums read(ByteReader& bytes);
 
-    std::uint64_t passes() const { return passes_; }
-    std::uint64_t replicates() const { return std::min<std::uint64_t>(passes_, plan_.replicates); }
+    /// Adds the replicates that another part of the run has made, or the passes of other seeds; the latter
+    /// cannot be continued. Throws std::invalid_argument for a run of another plan or size, and where both
+    /// have made the same passes.
+    void merge(PictureSums other);
+    std::vector<std::uint64_t> seeds() const;
 
-    /// `pass`: a sample of each pixel, 0 for those that take none, and likewise of each layer, one after
-    /// another.
-    void add(const std::vector<std::array<float, 3>>& pass);
+    /// The passes of all replicates.
+    std::uint64_t passes() const;
+    /// Those that have passes: all of the plan after its first passes, unless these are sums of a part.
+    std::uint64_t replicates() const;
+    /// The first pass of a part of the run that is not among the sums; the largest number where the part has
+    /// no replicate.
+    std::uint64_t next_pass(const RunPart& part = {}) const;
+
+    /// Adds the next pass of a replicate. `pass`: a sample of each pixel, 0 for those that take none, and
+    /// likewise of each layer, one after another.
+    void add(std::uint64_t replicate, const std::vector<std::array<float, 3>>& pass);
     std::size_t layers() const { return layers_; }
 
     /// Decides the paces, for a plan that has them; all replicates have as many passes by now.
@@ -59,6 +68,24 @@ class PictureSums {
     double samples_per_pixel(const std::vector<bool>& blind) const;
 
   private:
+    /// Sums of samples: of the pixels, and likewise of each layer, one after another.
+    using Colours = std::vector<std::array<float, 3>>;
+    struct Replicate {
+        std::uint64_t passes = 0;
+        Colours sums;  ///< empty without passes
+    };
+
+    /// Calls `action` with the number of each replicate that has passes.
+    template <typename Action>
+    void for_each_begun(const Action& action) const {
+        for (std::uint64_t r = 0; r < replicates_.size(); ++r) {
+            if (replicates_[r].passes > 0) action(r);
+        }
+    }
+    void merge_seeds(PictureSums other);
+    /// Gives all pixels of a replicate as many samples as it has passes, with the same means.
+    void forget_paces();
+
     /// The share of a replicate's sum in a pixel: the value is the sum over the replicates of sum * scale,
     /// over the sum of their weights.
     struct Share {
@@ -67,9 +94,10 @@ class PictureSums {
     /// By passes, which differ by one at most; in plans with paces, all replicates count the same
     /// (picture_paces.h).
     Share share_of(std::uint64_t replicate, std::size_t pixel) const;
-    double weights() const;  ///< of all replicates
-    /// `sums`: pixels x colours.
-    std::array<float, 3> rgb_cd_m2(std::size_t pixel, std::span<const std::array<float, 3>> sums) const;
+    double weights() const;                                              ///< of all replicates
+    double sum_cd_m2(std::uint64_t replicate, std::size_t pixel) const;  ///< the luminance of its sum
+    /// `layer`: 0 for the whole light.
+    std::array<float, 3> rgb_cd_m2(std::size_t pixel, std::size_t layer) const;
     std::uint64_t taken(std::uint64_t replicate, std::size_t pixel) const;
     /// The variance of a pixel's value, in units of that of one sample.
     double variance_per_sample(std::size_t pixel) const;
@@ -81,10 +109,8 @@ class PictureSums {
     std::array<int, 2> resolution_{};
     std::size_t pixels_ = 0;
     std::size_t layers_ = 0;
-    std::size_t colours_ = 1;  ///< sums of colours for each pixel: one, or one for each replicate
-    std::vector<std::array<float, 3>> rgb_;  ///< pixels x colours, and the same of each layer
-    std::vector<float> luminance_;           ///< pixels x replicates
-    std::uint64_t passes_ = 0;
+    std::vector<Replicate> replicates_;
+    std::vector<std::uint64_t> more_seeds_;  ///< as RunState
     std::optional<PicturePaces> paces_;
 };
 

@@ -121,10 +121,11 @@ LightDivision picture_division(const Scene& scene, const RunOptions& options, bo
     return division;
 }
 
-/// Begins a picture, or continues one whose sums have a plan. `options`: `asked` with defaults.
+/// Begins a picture, or continues one whose sums have a plan. `options`: `asked` with defaults. A part of a
+/// run has no pixels.
 RenderResult render_by(const PictureMethod& method, const PreparedScene& scene, const Sensor& sensor,
                        const RunOptions& asked, const RunOptions& options, PictureSink* sink,
-                       const std::atomic<bool>* interrupt, PictureSums& sums) {
+                       const std::atomic<bool>* interrupt, PictureSums& sums, RunPart part = {}) {
     const Camera& camera = *sensor.camera();
     Session session(scene, {&sensor, 1}, asked, options, sink, interrupt);
     std::vector<Warning> of_scene = session.scene_warnings({&sensor, 1});
@@ -142,54 +143,75 @@ RenderResult render_by(const PictureMethod& method, const PreparedScene& scene, 
             comparison.emplace(problem, blind,
                                math::KeyOf<PictureComparison::Stream>{
                                    key_of_seed(options.seed).derived(RunStream::picture_comparison)});
-        if (sums.plan().technique.empty())
-            sums = PictureSums(camera.resolution, method.plan(estimator->technique(), options.seed),
-                               division.count());
+        const auto begin = [&](RunPlan plan) {
+            return PictureSums(camera.resolution, std::move(plan), division.count());
+        };
+        const auto passes_of = [&](PictureSums& own, RunPart replicates) {
+            return std::make_unique<Passes>(*estimator, blind, own, sink, session.monitor(),
+                                            comparison ? &*comparison : nullptr, replicates);
+        };
+        if (sums.plan().technique.empty()) sums = begin(method.plan(estimator->technique(), options.seed));
         if (sums.resolution() != camera.resolution || sums.layers() != division.count())
             throw std::invalid_argument(
                 "the sums are those of a picture of another size, or with other layers");
-        Passes passes(*estimator, blind, sums, sink, session.monitor(), comparison ? &*comparison : nullptr);
-        session.run(passes, result);
+        if (part.of > 1 && !sums.plan().is_complete()) {
+            PictureSums first = begin(sums.plan());
+            passes_of(first, {})->complete_plan(options.paths.value());
+            if (first.paces()) sums = begin(first.plan());
+        }
+        const std::unique_ptr<Passes> passes = passes_of(sums, part);
+        session.run(*passes, result);
         session.describe(*estimator, result);
+        if (part.of > 1) return;
         result.replicates = static_cast<int>(sums.replicates());
         result.pixels = sums.pixels();
-        for (const LightDivision::Part& part : division.shares()) result.layers.push_back(part.name);
+        for (const LightDivision::Part& share : division.shares()) result.layers.push_back(share.name);
         if (division.count() == 0 && !result.layers.empty())
             result.pixels.layers_cd_m2 = {result.pixels.rgb_cd_m2};
         result.samples_per_pixel = sums.samples_per_pixel(blind);
         add_means(blind, result);
-        if (comparison) add_patch_error(passes.bias(), result);
+        if (comparison) add_patch_error(passes->bias(), result);
     });
     std::ranges::move(of_scene, std::back_inserter(result.warnings));
     session.finish(result);
     return result;
 }
 
-}  // namespace
-
-RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunOptions& asked_options,
-                    PictureSink* sink, const std::atomic<bool>* interrupt, PictureSums* state) {
+/// Begins or continues a picture, or a part of it, by the method of the options or of the sums.
+RenderResult render_picture(const PreparedScene& scene, const Sensor& camera, const RunOptions& asked_options,
+                            RunPart part, PictureSink* sink, const std::atomic<bool>* interrupt,
+                            PictureSums& sums, Samples samples = Samples::as_asked) {
     if (has_levels_of_detail(scene.scene())) {
         DetailedScene detailed = with_levels_of_detail(scene.scene(), {&camera, 1});
-        RenderResult result = render(detailed.scene, camera, asked_options, sink, interrupt, state);
+        RenderResult result =
+            render_picture(detailed.scene, camera, asked_options, part, sink, interrupt, sums, samples);
         result.levels_of_detail = std::move(detailed.levels);
         return result;
     }
     require_valid(asked_options);
-    PictureSums own;
-    PictureSums& sums = state ? *state : own;
     const bool begins = sums.plan().technique.empty();
     const estimators::EstimatorEntry& method =
         estimators::find_estimator(begins ? asked_options.method : sums.plan().technique);
     RunOptions options = with_picture_target(asked_options);
     if (!begins) options.seed = sums.plan().seed;
+    if (samples == Samples::no_more)
+        options.paths = 0;  // there are as many
+    else if (sums.seeds().size() > 1)
+        throw std::invalid_argument("the sums are of several seeds, and cannot be continued");
     if (!method.measures_luminance) {
         throw InputError(fmt::format("method {} measures illuminance only. Pictures: {}.", method.name,
                                      fmt::join(estimators::luminance_methods(), ", ")));
     }
     const std::uint64_t replicates = method.lights_patches ? kPatchPictureReplicates : kPictureReplicates;
+    if (part.of > replicates) {
+        throw InputError(
+            fmt::format("{} parts: a picture by method {} has {} replicates, so that it comes apart into at "
+                        "most as many. For more machines give each a seed of its own, and merge their "
+                        "states.",
+                        part.of, method.name, replicates));
+    }
     RenderResult result = render_by({method.make, replicates, method.lights_patches}, scene, camera,
-                                    asked_options, options, sink, interrupt, sums);
+                                    asked_options, options, sink, interrupt, sums, part);
     if (method.has_heavy_tails) {
         result.warnings.emplace_back(
             WarningKind::method,
@@ -199,6 +221,33 @@ RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunO
                         method.name));
     }
     return result;
+}
+
+}  // namespace
+
+RenderResult render(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
+                    PictureSink* sink, const std::atomic<bool>* interrupt, PictureSums* state) {
+    PictureSums own;
+    return render_picture(scene, camera, options, {}, sink, interrupt, state ? *state : own);
+}
+
+RunSummary render_part(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
+                       RunPart part, PictureSums& state, PictureSink* sink,
+                       const std::atomic<bool>* interrupt) {
+    require_part(options, part);
+    return render_picture(scene, camera, options, part, sink, interrupt, state);
+}
+
+RenderResult result_of(const PreparedScene& scene, const Sensor& camera, const RunOptions& options,
+                       PictureSums& state, const std::atomic<bool>* interrupt) {
+    const std::uint64_t begun = state.replicates(), all = state.plan().replicates;
+    if (begun < std::min<std::uint64_t>(all, options.paths.value_or(all))) {
+        throw InputError(fmt::format(
+            "only {} of the {} replicates of the picture have passes: merge all of its parts.", begun, all));
+    }
+    RunOptions without_limit = options;
+    without_limit.time_s.reset();
+    return render_picture(scene, camera, without_limit, {}, nullptr, interrupt, state, Samples::no_more);
 }
 
 RenderResult render_solution(const Scene& scene, const Sensor& camera, estimators::PatchSolution solution,

@@ -348,8 +348,6 @@ void add_light_scenes(const LightDivision& division, const Campaign& campaign, c
     }
 }
 
-enum class Samples { as_asked, no_more };
-
 /// Begins a run, or continues one that has a plan. A part of a run has no results.
 RunResult run_readings(const PreparedScene& prepared, std::span<const Sensor> given_sensors,
                        const RunOptions& asked_options, ProgressSink* progress,
@@ -464,11 +462,7 @@ RunResult result_of(const PreparedScene& scene, std::span<const Sensor> sensors,
 RunSummary measure_part(const PreparedScene& scene, std::span<const Sensor> sensors,
                         const RunOptions& options, RunPart part, RunState& state, ProgressSink* progress,
                         const std::atomic<bool>* interrupt) {
-    if (!options.paths)
-        throw InputError("a part of a run needs a number of paths: it cannot tell the error of the whole");
-    if (part.number >= part.of)
-        throw InputError(fmt::format("part {} of {} does not exist: the first one is 0, the last one {}",
-                                     part.number, part.of, std::max<std::size_t>(part.of, 1) - 1));
+    require_part(options, part);
     return run_readings(scene, sensors, options, progress, interrupt, state, part);
 }
 

@@ -29,8 +29,10 @@ Json sums_json(const io::StoredRun& stored, const io::StoredSums& sums, const st
     } else if (stored.origin.command != "solve") {
         const auto picture = io::read_sums<run::PictureSums>(stored, sums.name, file);
         json.update(plan_json(picture.plan()));
-        json["seeds"] = {picture.plan().seed};
+        json["seeds"] = picture.seeds();
         json["samples"] = picture.passes();
+        json["strands"] = picture.plan().replicates;
+        json["begun_strands"] = picture.replicates();
     }
     return json;
 }
