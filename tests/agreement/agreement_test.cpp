@@ -10,7 +10,6 @@
 #include <string>
 #include <vector>
 
-#include "agreement/sanitized.h"
 #include "agreement/scenes.h"
 #include "estimators/estimator_list.h"
 #include "run/run.h"
@@ -23,10 +22,10 @@ namespace {
 
 constexpr int kReplicates = 32;
 /// Relative standard error of a method's readings that is aimed at, by the pilot run, and that is required.
-constexpr double kTargetError = 0.0016 * kCoarser;
-constexpr double kLargestError = 0.003 * kCoarser;
+constexpr double kTargetError = 0.0016;
+constexpr double kLargestError = 0.003;
 /// A method that is wrong by this share does not pass.
-constexpr double kNoticed = 0.01 * kCoarser;
+constexpr double kNoticed = 0.01;
 /// Chance that the whole file fails without a defect, when its seeds are first used.
 constexpr double kFamilyError = 0.01;
 
@@ -213,15 +212,13 @@ TEST(HarmonicBodies, AreAsFineMeshes) {
         AgreementScene sights = points;
         sights.points.clear();
         sights.sights = twin.many_sights;
-        const double factor = coarser(2);
-        const auto paths = [&](std::uint64_t usual) {
-            return static_cast<std::uint64_t>(static_cast<double>(usual) / (factor * factor));
-        };
+        constexpr double factor = 3;
         const auto measure_means = [&](const Scene& scene, std::uint64_t seed) {
-            Measured measured = measure(scene, points, "path", seed, paths(kReplicates << 11));
+            Measured measured = measure(scene, points, "path", seed, fewer(kReplicates << 11, factor));
             measured.estimates.push_back(
-                measure(scene, sights, "path", seed + 1, paths(kReplicates << 7)).estimates.back());
-            EXPECT_LT(largest_relative_error(measured.estimates), 2 * factor * kLargestError) << twin.of;
+                measure(scene, sights, "path", seed + 1, fewer(kReplicates << 7, factor)).estimates.back());
+            EXPECT_LT(largest_relative_error(measured.estimates), 2 * coarser(factor) * kLargestError)
+                << twin.of;
             return measured;
         };
         const double z = worst_z(measure_means(points.make(), 7000), measure_means(twin.make(), 7100));

@@ -4,19 +4,19 @@
 #include <numbers>
 #include <string>
 
-#include "agreement/sanitized.h"
 #include "exact/closed_rooms.h"
 #include "exact/sobolev.h"
 #include "run/run.h"
+#include "support/coarser.h"
 #include "support/scene_builder.h"
 
 namespace stilb {
 namespace {
 
 constexpr Rgb kWhite = Rgb::grey(1);
-/// With intervals that hold in 95 % of the runs, the share over so many runs is between 92 and 98 % but for a
+/// With intervals that hold in 95 % of the runs, the share over 1000 runs is between 92 and 98 % but for a
 /// chance of 3e-5.
-constexpr int kRuns = static_cast<int>(1000 / (kCoarser * kCoarser));
+const int kRuns = static_cast<int>(fewer(1000));
 
 struct Coverage {
     double share = 0;
@@ -41,8 +41,8 @@ Coverage coverage_of(const Scene& scene, const Sensor& sensor, double exact_lx, 
 }
 
 void expect_to_hold(const Coverage& coverage) {
-    EXPECT_GE(coverage.share, 0.95 - 0.03 * kCoarser);
-    EXPECT_LE(coverage.share, 0.95 + 0.03 * kCoarser);
+    EXPECT_GE(coverage.share, 0.95 - 0.03 * coarser());
+    EXPECT_LE(coverage.share, 0.95 + 0.03 * coarser());
     testing::Test::RecordProperty("share", std::to_string(coverage.share));
     testing::Test::RecordProperty("mean_half_width", std::to_string(coverage.mean_half_width));
 }

@@ -7,7 +7,6 @@
 #include <span>
 #include <vector>
 
-#include "agreement/sanitized.h"
 #include "agreement/scenes.h"
 #include "base/parallel.h"
 #include "estimators/estimator_list.h"
@@ -21,7 +20,7 @@ namespace {
 
 constexpr std::size_t kReplicates = 32;
 /// Relative standard error that is aimed at.
-constexpr double kTargetError = 0.003 * kCoarser;
+constexpr double kTargetError = 0.003;
 /// Chance that the whole file fails without a defect, when its seeds are first used.
 constexpr double kFamilyError = 0.01;
 
@@ -141,7 +140,8 @@ class PaleBall : public testing::Test {
         return points;
     }
 
-    static constexpr std::uint64_t kSamples = 512 / static_cast<std::uint64_t>(kCoarser * kCoarser);
+    static constexpr double kFactor = 1.6;  ///< of coarser()
+    const std::uint64_t samples_ = fewer(512, kFactor);
     const Scene scene_ = room();
     const rays::RayCaster caster_{scene_};
     const std::vector<Measurand> points_ = many_points();
@@ -156,11 +156,11 @@ class PaleBall : public testing::Test {
 /// Where the numbers of paths by the ball were used again, the mean was 0.55 % dark.
 TEST_F(PaleBall, TheMeanIsThatOfLocalEstimation) {
     const auto guided =
-        mean_of_readings(*estimators::make_guided(problem_), points_.size(), key_.derived(0), kSamples);
+        mean_of_readings(*estimators::make_guided(problem_), points_.size(), key_.derived(0), samples_);
     const auto balanced = mean_of_readings(*estimators::make_balanced(problem_), points_.size(),
-                                           key_.derived(1), 16 * kSamples);
-    EXPECT_LT(guided.standard_error, 0.001 * kCoarser * guided.value);
-    EXPECT_LT(balanced.standard_error, 0.001 * kCoarser * balanced.value);
+                                           key_.derived(1), 16 * samples_);
+    EXPECT_LT(guided.standard_error, 0.001 * coarser(kFactor) * guided.value);
+    EXPECT_LT(balanced.standard_error, 0.001 * coarser(kFactor) * balanced.value);
     EXPECT_LT(std::abs(statistics::z_score(guided, balanced)), 3.5)
         << guided.value << " +- " << guided.standard_error << ", " << balanced.value << " +- "
         << balanced.standard_error;
@@ -175,15 +175,15 @@ TEST_F(PaleBall, PacesKeepTheExpectation) {
     parallel_for(kReplicates, [&](std::size_t r) {
         estimators::Tally sums(points_.size());
         constexpr std::uint64_t at_once = 8;
-        for (std::uint64_t first = 0; first < kSamples; first += at_once)
-            method->run_batch({key_.derived(3).derived(r), first, std::min(at_once, kSamples - first), paces},
+        for (std::uint64_t first = 0; first < samples_; first += at_once)
+            method->run_batch({key_.derived(3).derived(r), first, std::min(at_once, samples_ - first), paces},
                               sums);
         for (std::size_t j = 0; j < points_.size(); ++j) {
-            const auto taken = static_cast<double>(paces[packets[j]].taken(kSamples));
+            const auto taken = static_cast<double>(paces[packets[j]].taken(samples_));
             means[j][r] = (method->known_part()[j] + sums.sum[j] * (1 / taken)).luminance();
         }
     });
-    const auto all = measure(*method, points_.size(), key_.derived(4), kSamples);
+    const auto all = measure(*method, points_.size(), key_.derived(4), samples_);
     const double threshold = statistics::sidak_threshold_z(kFamilyError, points_.size());
     for (std::size_t j = 0; j < points_.size(); ++j) {
         const auto paced = statistics::estimate_from_replicates(means[j]);
@@ -212,8 +212,8 @@ TEST(GuidedReadings, AnEyeAmongPointsOfADeskIsAsExactAsAlone) {
                                           .max_reflections = transport::kUnlimited,
                                           .preparation_key = {key.derived(2)},
                                           .measurands = all};
-        constexpr std::uint64_t samples = 256 / static_cast<std::uint64_t>(kCoarser * kCoarser);
-        return measure(*estimators::make_guided(problem), all.size(), key.derived(all.size()), samples)[0];
+        return measure(*estimators::make_guided(problem), all.size(), key.derived(all.size()),
+                       fewer(256, 2))[0];
     };
     // The error of one run is itself known to a fifth only.
     double alone_squares = 0, among_squares = 0;

@@ -30,7 +30,7 @@ struct AgreementScene {
     /// where two methods at two points have few chances to notice an error.
     std::uint64_t path_factor = 1;
     /// A factor on all errors that are aimed at and noticed (support/coarser.h).
-    double coarser = 1.5;
+    double coarser = 2;
 
     /// Points, sights and bodies.
     std::vector<Sensor> sensors() const;

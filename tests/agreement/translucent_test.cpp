@@ -7,10 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "agreement/sanitized.h"
 #include "io/scene/scene_file.h"
 #include "run/run.h"
 #include "stilb/error.h"
+#include "support/coarser.h"
 
 namespace stilb {
 namespace {
@@ -45,7 +45,7 @@ void expect_exact(const Measured& one, double exact, double error, const std::st
 class Translucent : public testing::TestWithParam<const char*> {
   protected:
     /// Local estimation has an infinite variance in corners.
-    double error() const { return kCoarser * (GetParam() == std::string("local") ? 0.01 : 0.004); }
+    double error() const { return coarser() * (GetParam() == std::string("local") ? 0.01 : 0.004); }
     bool measures_luminance() const { return GetParam() != std::string("local"); }
 };
 

@@ -1,4 +1,5 @@
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
@@ -106,12 +107,16 @@ TEST(ExrFile, SaysWhatItsValuesAre) {
     EXPECT_EQ(text("sceneHash"), "0123abcd");
     EXPECT_EQ(text("sensor"), "main");
     EXPECT_EQ(text("method"), "auto");
-    EXPECT_EQ(text("seed"), "17");
-    EXPECT_EQ(text("paths"), "4096");
-    EXPECT_EQ(text("replicates"), "32");
-    EXPECT_EQ(text("elapsed_s"), "12.500");
-    EXPECT_EQ(text("patches"), "10080");
-    EXPECT_EQ(text("patchSize_m"), "0.25");
+    const auto number = [&](const char* name) {
+        const auto* attribute = header.findTypedAttribute<Imf::DoubleAttribute>(name);
+        return attribute != nullptr ? attribute->value() : -1;
+    };
+    EXPECT_EQ(number("seed"), 17);
+    EXPECT_EQ(number("paths"), 4096);
+    EXPECT_EQ(number("replicates"), 32);
+    EXPECT_EQ(number("elapsed_s"), 12.5);
+    EXPECT_EQ(number("patches"), 10080);
+    EXPECT_EQ(number("patchSize_m"), 0.25);
     EXPECT_EQ(text("firstShot"), "incoming");
     EXPECT_EQ(text("command"), "stilb render office.toml -o a.exr");
     EXPECT_EQ(text("software"), "Stilb 9.8.7");
@@ -124,6 +129,16 @@ TEST(ExrFile, SaysWhatItsValuesAre) {
     file.readPixels(0, picture.height - 1);
     for (std::size_t i = 0; i < luminance.size(); ++i)
         EXPECT_FLOAT_EQ(luminance[i], static_cast<float>(picture.luminance_cd_m2(i)));
+}
+
+/// 999,999,999,999,999 is the last number that the file has as a number, and 10^15 the first as a text.
+TEST(ExrFile, KeepsLongSeeds) {
+    for (const std::uint64_t seed : {999'999'999'999'998u, 999'999'999'999'999u, 1'000'000'000'000'000u,
+                                     1'000'000'000'000'001u, ~std::uint64_t{0} / 2}) {
+        Picture picture = sample_picture();
+        picture.origin.seed = seed;
+        EXPECT_EQ(read_exr(to_exr(picture), "a.exr").origin.seed, seed);
+    }
 }
 
 TEST(ExrFile, ReadsOtherProgramsFiles) {

@@ -120,7 +120,7 @@ std::span<const Threshold> thresholds() {
         {"kMostEvery", "src/run/paces.cpp", "16", "the slowest pace", "tests/run/paces_test.cpp"},
         {"kPassesBeforePaces", "src/run/pictures/passes.cpp", "2",
          "passes of a picture from which cells have paces",
-         "not one by one; nearest: tests/run/passes_test.cpp"},
+         "tests/run/picture_state_test.cpp: 7, 8 and 9 passes of 4 replicates"},
         {"kLeastReplicates", "src/run/readings/campaign.cpp", "8",
          "replicates that an interrupted run needs for a result",
          "tests/run/plan_test.cpp: 0, 3, 7, 8 and 31 begun"},

@@ -203,11 +203,10 @@ TEST(Bodies, CylindersReadTheMeanOfVerticalIlluminances) {
     }
     const std::vector<Sensor> elements{{"around", all_around}, {"front", in_front}};
     const double factor = coarser(2);
-    const auto fewer = static_cast<std::uint64_t>(factor * factor);
     for (const std::string method : {"auto", "path"}) {
-        const std::uint64_t paths = (method == "auto" ? 1 << 16 : 1 << 12) / fewer;
+        const std::uint64_t paths = fewer(method == "auto" ? 1 << 16 : 1 << 12, 2);
         const RunResult bodies =
-            measure(furnished(), bodies_at(at), body_options(method, (1 << 17) / fewer, 11));
+            measure(furnished(), bodies_at(at), body_options(method, fewer(1 << 17, 2), 11));
         const RunResult means = measure(furnished(), elements, body_options(method, paths, 12));
         for (std::size_t b = 0; b < 2; ++b) {
             const statistics::Estimate body = estimate(bodies, b), mean = means.sensors[b].summary.mean;

@@ -101,7 +101,7 @@ TEST(RayBundle, EveryFirstShotApproachesPathTracing) {
           estimators::FirstShotVariant::incoming, estimators::FirstShotVariant::on_the_fly}) {
         // Shadow rays at every crossing take their time.
         const bool on_the_fly = variant == estimators::FirstShotVariant::on_the_fly;
-        RunOptions options = bundle_options(on_the_fly ? 0.35 * coarser(2) : 0.35, 128);
+        RunOptions options = bundle_options(on_the_fly ? 0.35 * coarser(2) : 0.35, 64);
         options.patches.first_shot.variant = variant;
         const double tolerance = 0.05;
         const RunResult result = measure(scene, {&sensor, 1}, options);

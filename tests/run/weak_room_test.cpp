@@ -31,7 +31,7 @@ TEST(WeakRoom, HasItsLightWhateverTheRatioOfTheLamps) {
         for (const char* method : {"path", "light-paths", "guided", "auto"}) {
             RunOptions options;
             options.method = method;
-            options.paths = static_cast<std::uint64_t>(16384 / (factor * factor));
+            options.paths = fewer(16384, 2);
             const RunResult result = measure(scene, std::vector{point_sensor(points)}, options);
             for (std::size_t i = 0; i < places.size(); ++i) {
                 const auto [x, y] = places[i];

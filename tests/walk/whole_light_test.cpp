@@ -110,7 +110,7 @@ TEST(Page, ShowsTheLightOfTheRoomWithinItsError) {
         error_lx.push_back(error);
     }
     RunOptions truth;
-    truth.paths = static_cast<std::uint64_t>(32'768 / std::pow(coarser(2), 2));
+    truth.paths = fewer(32'768, 2);
     const std::vector<Sensor> sensors{point_sensor(points)};
     const RunResult measured = run::measure(scene, sensors, truth);
     std::size_t covered = 0, close = 0;

@@ -1,4 +1,5 @@
 #include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfDoubleAttribute.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfInputFile.h>
@@ -17,6 +18,7 @@
 #include "io/image/picture.h"
 #include "io/image/picture_file.h"
 #include "io/image/tone_curve.h"
+#include "io/text/text.h"
 #include "stilb/error.h"
 
 namespace stilb::io {
@@ -63,13 +65,22 @@ Imf::Chromaticities to_chromaticities(const Primaries& primaries) {
     return {point(0), point(1), point(2), point(3)};
 }
 
+/// Whole numbers from here on, such as long seeds, are texts: a double would round them.
+constexpr double kMostInDouble = 1e15;
+
 Imf::Header header_of(const Picture& picture) {
     Imf::Header header(picture.width, picture.height);
     header.compression() = Imf::PIZ_COMPRESSION;  // of noise, smaller and sooner than the other ones
     Imf::addWhiteLuminance(header, 1);
     Imf::addChromaticities(header, to_chromaticities(kRec709));
-    for (const HeaderField& field : header_fields(picture))
-        header.insert(field.name, Imf::StringAttribute(field.text));
+    for (const HeaderField& field : header_fields(picture)) {
+        const double number =
+            field.is_number ? parse_number(field.text).value_or(kMostInDouble) : kMostInDouble;
+        if (number < kMostInDouble)
+            header.insert(field.name, Imf::DoubleAttribute(number));
+        else
+            header.insert(field.name, Imf::StringAttribute(field.text));
+    }
     return header;
 }
 
@@ -109,6 +120,8 @@ class ExrReader {
         for (auto it = header.begin(); it != header.end(); ++it) {
             if (const auto* text = dynamic_cast<const Imf::StringAttribute*>(&it.attribute()))
                 read_header_field(picture_, it.name(), text->value());
+            if (const auto* number = dynamic_cast<const Imf::DoubleAttribute*>(&it.attribute()))
+                read_header_field(picture_, it.name(), fmt::format("{:.15g}", number->value()));
         }
         return std::move(picture_);
     }

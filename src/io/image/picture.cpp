@@ -117,6 +117,9 @@ std::vector<HeaderField> header_fields(const Picture& picture) {
     const auto add = [&](std::string name, std::string text) {
         if (!text.empty()) fields.push_back({std::move(name), on_one_line(std::move(text))});
     };
+    const auto add_number = [&](std::string name, std::string text) {
+        fields.push_back({std::move(name), std::move(text), true});
+    };
     if (!origin.version.empty()) add("software", std::string(kSoftware) + origin.version);
     add("command", origin.command);
     add("scene", origin.scene);
@@ -125,12 +128,12 @@ std::vector<HeaderField> header_fields(const Picture& picture) {
     add("sensor", origin.sensor);
     add("method", origin.method);
     add("technique", origin.technique);
-    if (origin.seed) add("seed", fmt::to_string(*origin.seed));
-    if (origin.paths > 0) add("paths", fmt::to_string(origin.paths));
-    if (origin.replicates > 0) add("replicates", fmt::to_string(origin.replicates));
-    if (origin.elapsed_s > 0) add("elapsed_s", fmt::format("{:.3f}", origin.elapsed_s));
-    if (origin.patches > 0) add("patches", fmt::to_string(origin.patches));
-    if (origin.patch_size_m > 0) add("patchSize_m", fmt::to_string(origin.patch_size_m));
+    if (origin.seed) add_number("seed", fmt::to_string(*origin.seed));
+    if (origin.paths > 0) add_number("paths", fmt::to_string(origin.paths));
+    if (origin.replicates > 0) add_number("replicates", fmt::to_string(origin.replicates));
+    if (origin.elapsed_s > 0) add_number("elapsed_s", fmt::format("{:.3f}", origin.elapsed_s));
+    if (origin.patches > 0) add_number("patches", fmt::to_string(origin.patches));
+    if (origin.patch_size_m > 0) add_number("patchSize_m", fmt::to_string(origin.patch_size_m));
     add("firstShot", origin.first_shot);
     if (picture.camera) fields.push_back(view_field(*picture.camera));
     return fields;

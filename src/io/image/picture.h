@@ -79,7 +79,8 @@ Picture picture_of(const RenderResult& result, const Camera& camera, PictureOrig
 
 struct HeaderField {
     std::string name;
-    std::string text;  ///< one line
+    std::string text;        ///< one line
+    bool is_number = false;  ///< for formats that have numbers
 };
 
 /// Origin (scene, sceneName, sceneHash, sensor, method, technique, seed, paths, replicates, elapsed_s,
