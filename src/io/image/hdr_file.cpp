@@ -127,7 +127,7 @@ class HdrReader {
     Picture read() && {
         read_header();
         read_resolution();
-        for (const auto& [field, text] : fields_) read_header_field(picture_, field, text);
+        for (const HeaderField& field : fields_) read_header_field(picture_, field.name, field.text);
         bytes_ = lines_.rest().in_memory();
         const PrimariesConversion convert(primaries_, kRec709);
         std::vector<Rgbe> scanline(static_cast<std::size_t>(picture_.width));
