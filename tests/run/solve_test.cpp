@@ -27,6 +27,7 @@ namespace stilb::run {
 namespace {
 
 constexpr double kPatch_m = 1;
+constexpr std::uint64_t kLeastSteps = 24;  ///< of a solution that is compared
 
 Scene room(const Material& floor) {
     Scene scene;
@@ -120,7 +121,7 @@ void expect_equal(const statistics::Estimate& a, const statistics::Estimate& b, 
 
 void expect_the_light_of_paths(const Scene& scene) {
     constexpr double factor = 1.7;
-    const Means means = means_of(scene, fewer(96, factor), fewer(512, factor));
+    const Means means = means_of(scene, std::max(fewer(96, factor), kLeastSteps), fewer(512, factor));
     expect_equal(means.solved, means.traced, factor);
 }
 
@@ -236,7 +237,7 @@ TEST(Solve, DimmedLampsAreThoseOfADimmedScene) {
     const LightGroups groups = scene::light_groups(scene);
     const Scene dimmed = scene::relit(scene, groups, scene::factors_of_groups(factors, groups.names));
     constexpr double factor = 2;
-    const std::uint64_t steps = fewer(128, factor);
+    const std::uint64_t steps = std::max(fewer(128, factor), kLeastSteps);
     std::array<std::vector<double>, 2> means;
     for (std::uint64_t seed = 1; seed <= 10; ++seed) {
         means[0].push_back(

@@ -89,10 +89,10 @@ class Interrupted(StateTest):
         paths = 0
         for _ in range(int(os.environ.get("STILB_KILLS", "12"))):
             with subprocess.Popen(list(map(str, command)), cwd=self.folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL) as process:
+                while not (self.folder / "many.run").exists() and process.poll() is None:
+                    time.sleep(0.05)
                 time.sleep(MOMENTS.uniform(0.15, 0.5))
                 process.kill()
-            if not (self.folder / "many.run").exists():
-                continue
             shown = json.loads(self.run_program("measure", "--from", "many.run", "--json", code=3).stdout)
             self.assertGreaterEqual(shown["paths"], paths)
             paths = shown["paths"]

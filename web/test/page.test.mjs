@@ -13,6 +13,11 @@ before(async () => {
 after(() => browser?.close());
 
 const SHOTS = process.env.STILB_SHOTS;
+/**
+ * Drawing in software takes most of the time, and only screenshots show the pixels: else a quarter of them is drawn.
+ * Places and sizes stay, since they are in CSS pixels.
+ */
+const fewerPixels = SHOTS ? {} : { deviceScaleFactor: 0.5 };
 async function shot(page, name) {
   if (SHOTS) await page.screenshot({ path: `${SHOTS}/${name}.png` });
 }
@@ -37,11 +42,11 @@ async function moves(page, key, x, y) {
   return after !== before;
 }
 
-/** Waits until the averaged picture is complete. */
-const settle = (page) => page.waitForTimeout(2500);
+/** Waits until the averaged picture is complete; without screenshots, until its first frames had time to fail. */
+const settle = (page) => page.waitForTimeout(SHOTS ? 2500 : 500);
 
 test("opens from disk without network, and has the functions of window.stilb", { skip: missing }, async () => {
-  const { page, problems } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page, problems } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   assert.equal(await page.locator("#title").textContent(), "Synthetic room");
   const kinds = await page.evaluate(() => Object.fromEntries(Object.entries(window.stilb).map(([k, v]) => [k, typeof v])));
   assert.deepEqual(kinds, {
@@ -58,7 +63,7 @@ test("opens from disk without network, and has the functions of window.stilb", {
 });
 
 test("reads the surface under the cursor", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   await page.mouse.move(460, 450);
   const card = page.locator("#reading");
   await card.waitFor({ state: "visible" });
@@ -68,7 +73,7 @@ test("reads the surface under the cursor", { skip: missing }, async () => {
 });
 
 test("walks by keys, on the floor and not through a wall", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 500, height: 400 });
+  const { page } = await openFile(browser, testRoom(), { width: 500, height: 400 }, fewerPixels);
   // Towards the red wall at x = 0 from 0.9 m away: it fills the view, and never vanishes.
   await page.evaluate(() => window.stilb.camera([1, 1.2, 1.6], [0, 1.2, 1.6], 60));
   const before = await luminance(page, 250, 200);
@@ -84,7 +89,7 @@ test("walks by keys, on the floor and not through a wall", { skip: missing }, as
 });
 
 test("walks by keys before the first click, and after one on a button; not while text is typed", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   const walk = async (key) => {
     await page.evaluate(() => window.stilb.camera([3, 1, 1.6], [3, 3, 1.6], 60));
     return moves(page, key, 300, 600);
@@ -102,7 +107,7 @@ test("walks by keys before the first click, and after one on a button; not while
 });
 
 test("false colours have a scale with round numbers, and isolines", { skip: missing }, async () => {
-  const { page, problems } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page, problems } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   const before = await luminance(page, 300, 600);
   await page.keyboard.press("f");
   const labels = await page.locator("#scale li").allTextContents();
@@ -121,7 +126,7 @@ test("false colours have a scale with round numbers, and isolines", { skip: miss
 });
 
 test("the ruler and placed sensors", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   await page.evaluate(() => window.stilb.camera([3, 0.5, 1.6], [3, 2, 0], 70));
   await page.getByRole("tab", { name: "Measure" }).click();
   await page.keyboard.press("r");
@@ -139,7 +144,7 @@ test("the ruler and placed sensors", { skip: missing }, async () => {
 });
 
 test("lights are dimmed and switched by the panel", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   await page.getByRole("tab", { name: "Lights" }).click();
   const full = await luminance(page, 300, 600);
   await page.getByRole("button", { name: "spot on" }).click();
@@ -165,7 +170,7 @@ test("follows a program, measures and saves sensors", { skip: missing }, async (
     sensors: () => ({ toml: "", saved: "synthetic-sensors.toml" }),
   };
   const { server, address } = await serve(answers);
-  const { page, problems } = await openPage(browser, { width: 1280, height: 720 });
+  const { page, problems } = await openPage(browser, { width: 1280, height: 720 }, fewerPixels);
   await page.goto(address);
   await page.evaluate(() => window.stilb.ready);
   assert.match(await page.locator("#status").textContent(), /light within 5\.0 %/);
@@ -193,7 +198,7 @@ test("follows a program, measures and saves sensors", { skip: missing }, async (
 });
 
 test("a phone: nothing overlaps the picture until it is asked for", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 390, height: 844 }, { hasTouch: true, isMobile: true });
+  const { page } = await openFile(browser, testRoom(), { width: 390, height: 844 }, { hasTouch: true, isMobile: true, ...fewerPixels });
   assert.ok(await page.locator("#panel").isHidden());
   assert.ok(await page.locator("#pad").isVisible());
   await page.touchscreen.tap(150, 500);
@@ -210,7 +215,7 @@ test("a phone: nothing overlaps the picture until it is asked for", { skip: miss
 });
 
 test("every control has a name and is reached by the keyboard", { skip: missing }, async () => {
-  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 });
+  const { page } = await openFile(browser, testRoom(), { width: 1280, height: 720 }, fewerPixels);
   const nameless = await page.evaluate(() =>
     [...document.querySelectorAll("button, input, select, textarea")].filter((control) =>
       !control.textContent.trim() && !control.getAttribute("aria-label") && !control.closest("label")).length);

@@ -129,7 +129,7 @@ for (const material of [
     const { page } = await openFile(browser, scene, { width: 60, height: 60 });
     const place = [1, 1, 0];
     const sum = await page.evaluate(([point]) => {
-      const [rings, rays] = [24, 24];
+      const [rings, rays] = [16, 12];
       let total = 0;
       for (let i = 0; i < rings; ++i) {
         // Even in the square of the sine: each direction has the same projected solid angle.
