@@ -4,6 +4,8 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <string_view>
+#include <unordered_map>
 #include <utility>
 
 #include "stilb/error.h"
@@ -32,11 +34,12 @@ double maintenance_ratio(const Light& light, const LightScene& state) {
 
 LightGroups light_groups(const Scene& scene) {
     LightGroups groups;
+    std::unordered_map<std::string_view, std::uint32_t> numbers;  // there may be 100,000 lights
     for (const Light& light : scene.lights) {
         const std::string& name = group_of(light);
-        const auto known = std::ranges::find(groups.names, name);
-        groups.of_light.push_back(static_cast<std::uint32_t>(known - groups.names.begin()));
-        if (known == groups.names.end()) groups.names.push_back(name);
+        const auto [number, is_new] = numbers.emplace(name, static_cast<std::uint32_t>(groups.count()));
+        groups.of_light.push_back(number->second);
+        if (is_new) groups.names.push_back(name);
     }
     if (groups.count() <= kMostLightGroups) return groups;
     constexpr std::uint32_t last = kMostLightGroups - 1;

@@ -269,7 +269,7 @@ test("a picture that moves too slowly takes fewer triangles, and one that stands
 test("a scene of 60 000 triangles moves", { skip: missing }, async () => {
   const { page, problems } = await openFile(browser, furnishedRoom(), { width: 800, height: 800 });
   const time = await page.evaluate(async () => {
-    for (let i = 0; i < FRAMES; ++i) {
+    for (let i = 0; i < 40; ++i) {
       window.stilb.camera([0.5 + i * 0.005, 0.5, 1.6], [5, 4, 0.8], 75);
       await new Promise((done) => requestAnimationFrame(() => setTimeout(done, 0)));
     }
