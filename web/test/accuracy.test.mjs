@@ -20,7 +20,7 @@ const SCENES = process.env.STILB_SCENES ?? fileURLToPath(new URL("../../scenes",
 const OWN_SCENES = fileURLToPath(new URL("scenes", import.meta.url));
 const missing = missingPage || (existsSync(PROGRAM) ? false : `${PROGRAM} is missing`);
 
-const SIZE = { width: 400, height: 400 };
+const SIZE = { width: 300, height: 300 };
 const FINER = 2;
 const [COLUMNS, ROWS] = [20, 10];
 /** Of the pixels: the share that must agree. */
@@ -90,7 +90,7 @@ async function measured(file, camera, pixels, ...options) {
 async function showOneSurface(file, camera, pixels) {
   const steps = [[0, 0], [-1, 0], [1, 0], [0, -1], [0, 1], [-1, -1], [1, 1], [-1, 1], [1, -1]];
   const around = pixels.flatMap(([x, y]) => steps.map(([dx, dy]) => [x + dx, y + dy]));
-  const hits = (await measured(file, camera, around, "--bounces", "0", "--paths", "2048")).map(({ hit }) => hit);
+  const hits = (await measured(file, camera, around, "--bounces", "0", "--paths", "32")).map(({ hit }) => hit);
   return pixels.map((_, i) => {
     const [middle, ...others] = hits.slice(i * steps.length, (i + 1) * steps.length);
     return [0, 2, 4, 6].every((k) => {
@@ -162,7 +162,8 @@ for (const { what, file, camera, steps } of CASES) {
     const resolution = `sensors.view.resolution=[${FINER * SIZE.width}, ${FINER * SIZE.height}]`;
     await stilb("render", "--from", solution, "-o", picture, "--set", resolution);
     const rendered = coarser(readRadiancePicture(readFileSync(picture)).luminances);
-    const exact = await measured(file, camera, pixels, "--error", "3%");
+    // That of the least certain pixel: the median is 1 %, little beside the 4 to 5 % of the page.
+    const exact = await measured(file, camera, pixels, "--error", "8%");
     const showsOne = await showOneSurface(file, camera, pixels);
     const seen = await byPage(html, camera, pixels);
 
