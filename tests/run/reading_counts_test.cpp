@@ -53,7 +53,7 @@ TEST(ReadingCounts, FewerStrandsOfVeryManyReadings) {
     Scene scene;
     add_area_light(scene, inward(Box{{0, 0, 0}, {2, 2, 2}}), Rgb::grey(luminance), diffuse(reflectance));
     const double exact_lx = kPi * luminance / (1 - reflectance);
-    for (const int count : {131'071, 131'072, 131'073}) {
+    for (const int count : {131'072, 131'073}) {
         const Sensor grid{"row", Grid{{0.5, 0.5, 0.5}, {1, 0, 0}, {0, 1, 0}, {count, 1}, Vec3{0, 0, 1}}};
         RunOptions options;
         options.method = "path";
