@@ -25,6 +25,12 @@ struct Divider {
     SplitMaterial operator()(const Ward& ward) const {
         return parts(ward.parameters().diffuse, split_off(ward));
     }
+    SplitMaterial operator()(const Translucent& sheet) const {
+        const auto& [reflected, transmitted, straight] = sheet.parameters();
+        // What passes straight has no place in a sum of diffuse light.
+        if (straight.max() > 0) return parts({}, sheet);
+        return {reflected + transmitted, Diffuse{reflected + transmitted}, std::nullopt, transmitted};
+    }
     template <typename Model>
     SplitMaterial operator()(const Model& model) const {
         return parts({}, model);
@@ -32,6 +38,14 @@ struct Divider {
 };
 
 }  // namespace
+
+Rgb SplitMaterial::other_share() const {
+    Rgb share;
+    for (std::size_t b = 0; b < kBands; ++b) {
+        if (transmitted[b] > 0) share[b] = transmitted[b] / diffuse_reflectance[b];
+    }
+    return share;
+}
 
 SplitMaterial split(const Material& material) { return visit_model(Divider{}, material); }
 

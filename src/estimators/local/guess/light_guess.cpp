@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <map>
 
 #include "base/parallel.h"
 #include "math/sampling.h"
@@ -31,8 +32,8 @@ bool is_smooth(const Shape& shape) {
 }
 
 bool is_traced(const Material& material) {
-    if (is_specular(material) || transmits(material)) return true;
     const materials::SplitMaterial parts = materials::split(material);
+    if (is_specular(material) || (transmits(material) && !(parts.transmitted.max() > 0))) return true;
     return !(parts.diffuse_reflectance.max() > 0) && parts.gloss && mean_concentration(*parts.gloss) > kSharp;
 }
 
@@ -180,11 +181,14 @@ struct LightGuess::Solver {
             if (!was_lit && !is_source(rows, row) && !sees_lit(seen, is_lit)) return false;
             bool grows = !was_lit;
             is_lit[rows.sides[row]] = 1;
-            for (const std::uint32_t side : seen) {
-                if (side == patches::kNoSide || is_lit[side] != 0) continue;
+            const auto light = [&](std::uint32_t side) {
+                if (side == patches::kNoSide || is_lit[side] != 0) return;
                 is_lit[side] = 1;
                 grows = true;
-            }
+            };
+            if (guess.material(rows.sides[row]).transmitted.max() > 0)
+                light(guess.patches().other_side(rows.sides[row]));
+            std::ranges::for_each(seen, light);
             return grows;
         };
         for (bool grows = true; grows;) {
@@ -207,6 +211,8 @@ struct LightGuess::Solver {
     std::vector<transport::LightSum> solve(const Rows& rows) const {
         std::vector<transport::LightSum> luminance(2 * guess.patches().count(),
                                                    transport::LightSum(guess.channels_));
+        // By sides: the light of the other side that the patch lets through.
+        std::map<std::uint32_t, transport::LightSum> through;
         const Rgb per_ray = Rgb::grey(kPi / static_cast<double>(rows.width));
         for (int sweep = 0; sweep < kMostSweeps; ++sweep) {
             double change = 0, total = 0;
@@ -218,7 +224,15 @@ struct LightGuess::Solver {
                 arriving.add(seen, per_ray);
                 arriving.reflect();
                 const std::uint32_t side = rows.sides[row];
-                arriving *= guess.material(side).diffuse_reflectance * (1 / kPi);
+                const materials::SplitMaterial& material = guess.material(side);
+                if (material.transmitted.max() > 0) {
+                    transport::LightSum passing = arriving;
+                    through.insert_or_assign(guess.patches().other_side(side),
+                                             passing *= material.transmitted * (1 / kPi));
+                }
+                arriving *= (material.diffuse_reflectance + -1 * material.transmitted) * (1 / kPi);
+                if (const auto found = through.find(side); found != through.end())
+                    arriving.add(found->second, Rgb::grey(1));
                 change += std::abs((arriving.whole + luminance[side].whole * -1).luminance());
                 total += arriving.whole.luminance();
                 luminance[side] = std::move(arriving);

@@ -9,6 +9,7 @@
 #include "estimators/limits.h"
 #include "estimators/local/guess/part_reflection.h"
 #include "materials/shaded_surface.h"
+#include "transport/lobe_choice.h"
 #include "transport/receiver.h"
 #include "transport/weights.h"
 
@@ -145,21 +146,15 @@ double ResidualLight::pilot(std::uint32_t side, math::RandomKey key) const {
            std::sqrt(square / static_cast<double>(kPilots));
 }
 
-auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
-                             BoundedDirect::Part part, math::SampleStream& stream) const -> Start {
-    const patches::Patches& patches = guess_.patches();
+template <typename Chosen>
+transport::LightSum ResidualLight::arriving_at(const SurfacePoint& point, std::uint64_t packets,
+                                               BoundedDirect::Part part, math::SampleStream& stream,
+                                               Chosen& chosen) const {
     const transport::Channels* const channels = guess_.channels();
-    Start start{side_point(patches, caster_, side, at),
-                guess_.at(side, at),
-                transport::LightSum(channels),
-                {},
-                transport::LightSum(channels)};
-    const Frame frame = Frame::around(start.point.normal);
-    // Without gloss nothing asks for the light of one direction.
-    ChosenArrival chosen(stream.next(), guess_.material(side).gloss ? channels : nullptr);
-    transport::LightSum& missing_lx = start.missing_lx;
-    direct_.sample(start.point, part, kResidualDirect, stream, [&](const Arrival& arrival) {
-        missing_lx.add(arrival.illuminance_lx, arrival.light);
+    transport::LightSum arriving_lx(channels);
+    const Frame frame = Frame::around(point.normal);
+    direct_.sample(point, part, kResidualDirect, stream, [&](const Arrival& arrival) {
+        arriving_lx.add(arrival.illuminance_lx, arrival.light);
         chosen.add(arrival.direction, arrival.illuminance_lx,
                    [&](transport::LightSum& sum) { sum.add(arrival.illuminance_lx, arrival.light); });
     });
@@ -175,38 +170,60 @@ auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, st
         for (std::uint32_t i = 0; i < kPacketWidth; ++i) {
             const auto [u1, u2] = math::even_point(first + i, rays, shift);
             directions[i] = frame.to_world(math::sample_cosine_hemisphere(u1, u2).direction);
-            packet.ray.set(i, start.point.lifted - caster_.center(), directions[i],
+            packet.ray.set(i, point.lifted - caster_.center(), directions[i],
                            std::numeric_limits<float>::infinity());
         }
         guess_.look(packet, lanes, rays::Coherence::scattered, light);
         for (std::size_t i = 0; i < kPacketWidth; ++i) {
             if ((light.traced_lanes >> i & 1u) != 0) {
                 transport::LightSum traced_lx(channels);
-                if (const auto hit = caster_.closest(start.point.lifted, directions[i]))
+                if (const auto hit = caster_.closest(point.lifted, directions[i]))
                     traced_lx.add_sample(Rgb::grey(per_ray), [&](auto* parts) {
                         return tracer_.luminance_without_direct(*hit, directions[i], transport::kUnlimited,
                                                                 stream, parts);
                     });
-                missing_lx.add(traced_lx, Rgb::grey(1));
+                arriving_lx.add(traced_lx, Rgb::grey(1));
                 chosen.add(directions[i], traced_lx.whole,
                            [&](transport::LightSum& sum) { sum.add(traced_lx, Rgb::grey(1)); });
                 continue;
             }
             const Rgb illuminance_lx = light.luminance_of(i) * per_ray;
-            missing_lx.whole += illuminance_lx;
+            arriving_lx.whole += illuminance_lx;
             const auto add_shares = [&](transport::LightSum& sum) {
                 guess_.add_shares(light.sides[i], light.barycentric_of(i), per_ray, sum.shares);
             };
-            add_shares(missing_lx);
+            add_shares(arriving_lx);
             chosen.add(directions[i], illuminance_lx, add_shares);
         }
     }
-    missing_lx.reflect();
+    arriving_lx.reflect();
+    return arriving_lx;
+}
+
+auto ResidualLight::start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
+                             BoundedDirect::Part part, math::SampleStream& stream) const -> Start {
+    const patches::Patches& patches = guess_.patches();
+    const transport::Channels* const channels = guess_.channels();
+    const materials::SplitMaterial& material = guess_.material(side);
+    Start start{side_point(patches, caster_, side, at),
+                guess_.at(side, at),
+                transport::LightSum(channels),
+                {},
+                transport::LightSum(channels)};
+    // Without gloss nothing asks for the light of one direction.
+    ChosenArrival chosen(stream.next(), material.gloss ? channels : nullptr);
+    transport::LightSum& missing_lx = start.missing_lx;
+    missing_lx = arriving_at(start.point, packets, part, stream, chosen);
+    if (material.transmitted.max() > 0) {
+        const SurfacePoint other = side_point(patches, caster_, patches.other_side(side), at);
+        missing_lx *= material.own_share();
+        missing_lx.add(arriving_at(other, packets, part, stream, chosen), material.other_share());
+    }
     start.direction = chosen.direction();
     start.arriving_lx = chosen.light();
     start.arriving_lx.reflect();
     const transport::LightSum& guessed = start.guessed_cd_m2;
-    const Rgb& reflectance = guess_.material(side).diffuse_reflectance;
+    const Rgb& reflectance = material.diffuse_reflectance;
     const auto subtract = [&](const Rgb& luminance_cd_m2, Rgb& from_lx) {
         for (std::size_t b = 0; b < kBands; ++b) {
             if (reflectance[b] > 0) from_lx[b] -= luminance_cd_m2[b] * kPi / reflectance[b];
@@ -224,19 +241,31 @@ transport::LightSum ResidualLight::missing_cd_m2(std::uint32_t side, const math:
     Around next{side, at, transport::LightSum(guess_.channels())};
     while (next.side != patches::kNoSide) {
         const Start start = start_at(next.side, next.at, 1, BoundedDirect::Part::all, stream);
-        const Rgb& reflectance = guess_.material(next.side).diffuse_reflectance;
+        const materials::SplitMaterial& material = guess_.material(next.side);
+        const Rgb& reflectance = material.diffuse_reflectance;
         // The factor of a step is reflectance / survival: its square times survival must be less than 1.
         const double survival = transport::survival_probability(Rgb::grey(1), reflectance);
-        steps.push_back({start.missing_lx, reflectance, survival});
-        next = stream.next() < survival
-                   ? look_around(start.point, stream)
-                   : Around{patches::kNoSide, {}, transport::LightSum(guess_.channels())};
+        steps.push_back({start.missing_lx, reflectance, survival, Rgb::grey(1)});
+        if (stream.next() >= survival) {
+            next = {patches::kNoSide, {}, transport::LightSum(guess_.channels())};
+        } else if (!(material.transmitted.max() > 0)) {
+            next = look_around(start.point, stream);
+        } else {
+            const double other = material.other_share().luminance();
+            const bool crosses = stream.next() < other;
+            steps.back().share =
+                crosses ? material.other_share() * (1 / other) : material.own_share() * (1 / (1 - other));
+            next = look_around(crosses ? side_point(guess_.patches(), caster_,
+                                                    guess_.patches().other_side(next.side), next.at)
+                                       : start.point,
+                               stream);
+        }
     }
     transport::LightSum missing = std::move(next.missing_cd_m2);
     std::ranges::reverse(steps);
     for (Step& step : steps) {
         missing.reflect();
-        if (step.survival > 0) step.missing_lx.add(missing *= Rgb::grey(kPi), Rgb::grey(1 / step.survival));
+        if (step.survival > 0) step.missing_lx.add(missing *= step.share * kPi, Rgb::grey(1 / step.survival));
         missing = std::move(step.missing_lx *= step.reflectance * (1 / kPi));
     }
     return missing;
@@ -302,6 +331,28 @@ void ResidualLight::add(const transport::LightVertex& whole, const materials::Sp
     if (!parts.gloss) return;
     add_part(*parts.gloss);
     nodes.back().split = split_of_gloss(parts);
+}
+
+void ResidualLight::add_all(const rays::Hit& hit, const Vec3& direction,
+                            const materials::SplitMaterial& parts, const transport::LightVertex& carried,
+                            std::vector<transport::LightVertex>& nodes) const {
+    const auto vertex_at = [&](const rays::Hit& place, const Vec3& towards_light, const Material& material) {
+        transport::LightVertex vertex = carried;
+        static_cast<SurfacePoint&>(vertex) = place;
+        vertex.shading_normal = place.normal;
+        vertex.incoming = towards_light;
+        vertex.material = &material;
+        return vertex;
+    };
+    const Material& material = scene_.material(hit.material);
+    const auto lobes = transport::lobes_at(hit, material, transport::Carried::flux);
+    if (lobes.empty()) return add(vertex_at(hit, -direction, material), parts, nodes);
+    for (const materials::Lobe& lobe : lobes) {
+        rays::Hit place = hit;
+        Vec3 towards_light = -direction;
+        transport::cross(lobe, place, towards_light);
+        nodes.push_back(vertex_at(place, towards_light, lobe.scattering));
+    }
 }
 
 void ResidualLight::trace_one(math::SampleStream stream, std::vector<transport::LightVertex>& nodes) const {
@@ -383,21 +434,21 @@ void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, transport
     while (hit && !guess_.is_traced(*hit)) {
         const materials::SplitMaterial& parts = guess_.material(hit->material);
         if (!parts.reflects()) return;
-        const Material& material = scene_.material(hit->material);
-        static_cast<SurfacePoint&>(vertex) = *hit;
-        vertex.shading_normal = hit->normal;
-        vertex.incoming = -direction;
-        vertex.material = &material;
         ++vertex.reflections;
-        add(vertex, parts, nodes);
-        const double survival =
-            transport::survival_probability(magnitude(vertex.flux_lm), reflectance_bound(material));
+        add_all(*hit, direction, parts, vertex, nodes);
+        Vec3 towards_light = -direction;
+        const auto scattering = transport::choose_scattering(scene_.material(hit->material), *hit,
+                                                             towards_light, transport::Carried::flux, stream);
+        if (!scattering) return;
+        const double survival = transport::survival_probability(
+            magnitude(vertex.flux_lm),
+            scattering->lobe ? scattering->sent_on : reflectance_bound(*scattering->material));
         if (stream.next() >= survival) return;
         const auto [u1, u2] = stream.next_two();
-        const materials::ShadedSurface surface(material, hit->normal, hit->normal);
-        const auto scattered = surface.sample_outgoing(surface.frame().to_local(-direction), u1, u2);
+        const materials::ShadedSurface surface(*scattering->material, hit->normal, hit->normal);
+        const auto scattered = surface.sample_outgoing(surface.frame().to_local(towards_light), u1, u2);
         if (!scattered) return;
-        vertex.flux_lm *= scattered->weight * (1 / survival);
+        vertex.flux_lm *= scattered->weight * (scattering->weight / survival);
         direction = surface.frame().to_world(scattered->direction);
         hit = caster_.closest(hit->lifted, direction);
     }

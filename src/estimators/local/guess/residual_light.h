@@ -57,6 +57,12 @@ class ResidualLight {
         Vec3 direction;
         transport::LightSum arriving_lx;
     };
+    /// The light that arrives at a point of a side, after its next reflection. `chosen`: gets each part of
+    /// it.
+    template <typename Chosen>
+    transport::LightSum arriving_at(const SurfacePoint& point, std::uint64_t packets,
+                                    BoundedDirect::Part part, math::SampleStream& stream,
+                                    Chosen& chosen) const;
     Start start_at(std::uint32_t side, const math::Barycentric& at, std::uint64_t packets,
                    BoundedDirect::Part part, math::SampleStream& stream) const;
     /// One step of a walk: r, as in Start, and what of the rest of the walk comes back.
@@ -64,6 +70,7 @@ class ResidualLight {
         transport::LightSum missing_lx;
         Rgb reflectance;
         double survival = 0;
+        Rgb share{};  ///< of the side on which the walk goes on, over the probability of that
     };
     /// What a ray from a point meets: a side where the walk goes on, or a surface of which a sample of what
     /// the guess lacks there is known.
@@ -86,6 +93,9 @@ class ResidualLight {
               math::SampleStream& stream, std::vector<transport::LightVertex>& nodes) const;
     void trace_light_paths_only(math::RandomKey key, std::uint64_t first, std::uint64_t end,
                                 std::vector<transport::LightVertex>& nodes) const;
+    /// Adds the vertices of all parts of a surface that a walk meets along `direction`. `carried`: its flux.
+    void add_all(const rays::Hit& hit, const Vec3& direction, const materials::SplitMaterial& parts,
+                 const transport::LightVertex& carried, std::vector<transport::LightVertex>& nodes) const;
     /// Adds the vertices of both parts of a material.
     void add(const transport::LightVertex& whole, const materials::SplitMaterial& parts,
              std::vector<transport::LightVertex>& nodes) const;
