@@ -437,12 +437,11 @@ void ResidualLight::walk(std::optional<rays::Hit> hit, Vec3 direction, transport
         ++vertex.reflections;
         add_all(*hit, direction, parts, vertex, nodes);
         Vec3 towards_light = -direction;
-        const auto scattering = transport::choose_scattering(scene_.material(hit->material), *hit,
-                                                             towards_light, transport::Carried::flux, stream);
+        const auto scattering = transport::choose_lobe(scene_.material(hit->material), *hit, towards_light,
+                                                       transport::Carried::flux, stream);
         if (!scattering) return;
-        const double survival = transport::survival_probability(
-            magnitude(vertex.flux_lm),
-            scattering->lobe ? scattering->sent_on : reflectance_bound(*scattering->material));
+        const double survival =
+            transport::survival_probability(magnitude(vertex.flux_lm), scattering->sent_on);
         if (stream.next() >= survival) return;
         const auto [u1, u2] = stream.next_two();
         const materials::ShadedSurface surface(*scattering->material, hit->normal, hit->normal);
