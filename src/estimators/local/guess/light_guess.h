@@ -6,9 +6,9 @@
 // is estimated beside it (residual_light.h). It must not depend on the samples that it is used with, so it
 // has a random key of its own.
 //
-// Some surfaces are traced: mirrors and glass, translucent sheets, sharp gloss, exact surfaces and meshes
-// with smooth normals have no guess, and no residual starts there. Path tracing finds the light that comes
-// directly by them.
+// Some surfaces are traced: mirrors and glass, sheets that light also passes straight, sharp gloss, exact
+// surfaces and meshes with smooth normals have no guess, and no residual starts there. Path tracing finds the
+// light that comes directly by them. Both sides of a translucent sheet send on what arrives on either.
 //
 // Each lit side of a patch sends out some rays once. The sides that they meet are a sampled matrix of form
 // factors, and the guess is the solution of the equations of radiosity with it. Where light is divided into
