@@ -20,7 +20,7 @@ constexpr int kReflections = 256;
 
 bool has_bright_surfaces(const Scene& scene) {
     return std::ranges::any_of(scene.objects, [&](const Object& object) {
-        return std::ranges::any_of(object.materials, [&](MaterialId id) {
+        return std::ranges::any_of(materials_of(scene, object), [&](MaterialId id) {
             const Material& material = scene.material(id);
             return !is_specular(material) && reflectance_bound(material).max() > kBright;
         });

@@ -26,8 +26,8 @@ std::vector<std::string> specular_warnings(const Scene& scene, std::string_view 
 
 bool has_specular_surfaces(const Scene& scene) {
     return std::any_of(scene.objects.begin(), scene.objects.end(), [&](const Object& object) {
-        return std::any_of(object.materials.begin(), object.materials.end(),
-                           [&](MaterialId id) { return is_specular(scene.material(id)); });
+        return std::ranges::any_of(materials_of(scene, object),
+                                   [&](MaterialId id) { return is_specular(scene.material(id)); });
     });
 }
 
@@ -77,6 +77,13 @@ const Scene& require_reflection_only(const Scene& scene) {
     for (const Object& object : scene.objects) {
         for (const MaterialId id : object.materials) {
             const NamedMaterial& used = scene.materials[index_of(id)];
+            if (used.back) {
+                throw InputError(fmt::format(
+                    "object \"{}\": its material \"{}\" differs on the back, but methods with patches take "
+                    "both "
+                    "sides of a surface as alike. Use method auto, path or local, without first shot.",
+                    object.name, used.name));
+            }
             if (!is_composed(used.material)) continue;
             throw InputError(fmt::format(
                 "object \"{}\": its material \"{}\" is {} and lets light through, but methods with patches "

@@ -195,6 +195,25 @@ Rgb stated_reflectance(const Material& material) {
     return sum;
 }
 
+std::optional<std::string> contradiction_of_sides(const Material& front, const Material& back) {
+    if (!transmits(front) && !transmits(back)) return std::nullopt;
+    const auto* sheet = front.get_if<Translucent>();
+    const auto* other = back.get_if<Translucent>();
+    if (sheet == nullptr || other == nullptr) {
+        return fmt::format(
+            "\"{}\" and \"{}\" cannot be the sides of one surface: of the materials that let light through, "
+            "only "
+            "translucent ones have a back, which is translucent, too.",
+            type_name(front), type_name(back));
+    }
+    if (sheet->parameters().transmittance == other->parameters().transmittance &&
+        sheet->parameters().specular_transmittance == other->parameters().specular_transmittance)
+        return std::nullopt;
+    return "both sides transmit the same share of the light: transmittance and specular_transmittance must "
+           "be "
+           "as on the front.";
+}
+
 void validate(const Material& material, std::string_view path) {
     visit_model([&](const auto& model) { validate_fields(parameters_of(model), path); }, material);
 }

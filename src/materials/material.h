@@ -105,6 +105,10 @@ Rgb reflectance_bound(const Material& material);
 /// incidence.
 Rgb stated_reflectance(const Material& material);
 
+/// Why two materials cannot be the front and the back of a surface; nothing where they can. What passes from
+/// one side to the other must be the same as what passes back.
+std::optional<std::string> contradiction_of_sides(const Material& front, const Material& back);
+
 /// Throws an InputError in the wording of the scene reader where a parameter is out of its range, or several
 /// contradict each other. `path`: such as materials.wall.
 void validate(const Material& material, std::string_view path);

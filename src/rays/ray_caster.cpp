@@ -71,7 +71,7 @@ struct RayCaster::Implementation {
     bool sees_fine_things;
     Lift lift_rule;
     const Vec3& center = lift_rule.center();  ///< the origin of Embree's coordinates
-    bool has_panes = false;
+    bool has_panes = false, has_backs = false;
     std::shared_ptr<const AccelerationStructure> structure;
     const RTCScene embree_scene;
     const SharedMeshes& shared_meshes;
@@ -97,6 +97,7 @@ struct RayCaster::Implementation {
             return std::ranges::any_of(object.materials,
                                        [&](MaterialId id) { return passes_straight(scene.material(id)); });
         });
+        has_backs = scene::have_backs(scene);
         add_few_triangles();
     }
 
@@ -184,7 +185,7 @@ struct RayCaster::Implementation {
             }
         }
         hit.triangle = geometry.curved ? 0 : geometry.triangle_of(met.primID);
-        hit.material = material_of(object, hit.triangle);
+        hit.material = scene.on_side(material_of(object, hit.triangle), hit.on_front);
         hit.lifted += center;
         hit.position += center;
         hit.shading_normal = shading_normal_of(hit, geometry, {1.0 - met.u - met.v, met.u, met.v});
@@ -430,8 +431,13 @@ void RayCaster::surfaces(const RayHitPacket& hits, SurfacePacket& surfaces) cons
     }
     find_surfaces(hits, corners, lift(), surfaces, is_inside);
     for (std::size_t i = 0; i < kPacketWidth; ++i) {
-        if (hits.object[i] == kNothing || (is_curved[i] == 0 && is_inside[i] != 0)) continue;
-        surfaces.set(i, hit(hits, i), center());
+        if (hits.object[i] == kNothing) continue;
+        if (is_curved[i] != 0 || is_inside[i] == 0) {
+            surfaces.set(i, hit(hits, i), center());
+        } else if (implementation_->has_backs && surfaces.is_on_front[i] == 0) {
+            surfaces.material[i] =
+                index_of(implementation_->scene.on_side(MaterialId{surfaces.material[i]}, false));
+        }
     }
 }
 

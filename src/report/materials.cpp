@@ -57,14 +57,18 @@ Html swatch(const Rgb& reflectance) {
 /// By material.
 std::vector<double> areas_m2(const Scene& scene) {
     std::vector<double> areas(scene.materials.size());
+    const auto add = [&](MaterialId material, double surface_m2) {
+        areas[index_of(material)] += surface_m2;
+        if (const auto& back = scene.materials[index_of(material)].back) areas[index_of(*back)] += surface_m2;
+    };
     for (const Object& object : scene.objects) {
         if (object.materials.size() == 1) {
-            areas[index_of(object.materials.front())] += area_m2(object.shape);
+            add(object.materials.front(), area_m2(object.shape));
             continue;
         }
         for (std::size_t t = 0; t < object.materials.size(); ++t) {
             const auto [a, b, c] = geometry::corners_of(object.shape, t);
-            areas[index_of(object.materials[t])] += geometry::triangle_area_m2(a, b, c);
+            add(object.materials[t], geometry::triangle_area_m2(a, b, c));
         }
     }
     return areas;
@@ -93,7 +97,8 @@ std::vector<Line> lines_of(const Scene& scene) {
     std::map<std::string, std::size_t, std::less<>> textures;
     const std::vector<double> areas = areas_m2(scene);
     for (std::size_t i = 0; i < scene.materials.size(); ++i) {
-        const auto& [name, material] = scene.materials[i];
+        const std::string& name = scene.materials[i].name;
+        const Material& material = scene.materials[i].material;
         const std::string texture(io::material_of_colour(name));
         std::size_t line = lines.size();
         if (!texture.empty()) line = textures.try_emplace(texture, line).first->second;

@@ -28,6 +28,18 @@ Bounds bounds_of(const Scene& scene) {
     return all.is_empty() ? Bounds{{}, {}} : all;
 }
 
+std::set<MaterialId> materials_of(const Scene& scene, const Object& object) {
+    std::set<MaterialId> all(object.materials.begin(), object.materials.end());
+    const std::set<MaterialId> fronts = all;
+    for (const MaterialId front : fronts) all.insert(scene.on_side(front, false));
+    return all;
+}
+
+bool have_backs(const Scene& scene) {
+    return std::ranges::any_of(scene.materials,
+                               [](const NamedMaterial& named) { return named.back.has_value(); });
+}
+
 std::set<ObjectId> lamps_of(const Scene& scene) {
     std::set<ObjectId> lamps;
     for (const Light& light : scene.lights) {

@@ -23,6 +23,7 @@ namespace stilb::scene {
 struct NamedMaterial {
     std::string name;
     Material material;
+    std::optional<MaterialId> back = {};  ///< the material of the back, where it differs
 };
 
 struct Object {
@@ -61,6 +62,10 @@ struct Scene {
     ~Scene();
 
     const Material& material(MaterialId id) const { return materials[index_of(id)].material; }
+    /// The material of a side of a surface that has this material.
+    MaterialId on_side(MaterialId id, bool is_front) const {
+        return is_front ? id : materials[index_of(id)].back.value_or(id);
+    }
     const Object& object(ObjectId id) const { return objects[index_of(id)]; }
     const PhotometricSolid& solid(SolidId id) const { return solids[index_of(id)].solid; }
 };
@@ -95,6 +100,9 @@ inline constexpr double kLargeHalfExtent_m = 32;
 /// these points (fine_things.h); then, or with such a gap, a smaller scene is treated like one of more than
 /// 64 m.
 Lift lift_of(const Scene& scene, std::span<const Vec3> measured = {}, bool sees_fine_things = false);
+/// The materials of an object's fronts and backs, each once.
+std::set<MaterialId> materials_of(const Scene& scene, const Object& object);
+bool have_backs(const Scene& scene);
 /// The objects whose fronts are lamps.
 std::set<ObjectId> lamps_of(const Scene& scene);
 /// The place of a lamp: of a luminaire or a point, or the middle of its surface; nothing for light from

@@ -297,6 +297,23 @@ Scene mixed_room() {
     return scene;
 }
 
+/// Walls and a shade that differ on their backs.
+Scene different_sides() {
+    Scene scene;
+    add_object(scene, kRoom, diffuse(0.6));
+    add_area_light(scene, Rectangle{{0.5, 1, 2.79}, {0, 0.6, 0}, {0.6, 0, 0}}, 500 * kWhite);
+    add_object(scene, Rectangle{{1.6, 0, 0.2}, {0, 2.2, 0}, {0.2, 0, 2}}, phong(0.3, 0.3, 10));
+    const MaterialId back = add_material(scene, materials::Diffuse{{{0.1, 0.8, 0.3}}});
+    scene.materials[index_of(scene.objects.back().materials[0])].back = back;
+    add_object(scene, Rectangle{{2.8, 1.8, 1.5}, {0.4, 0, 0}, {0, 0.5, 0.1}},
+               materials::Translucent({Rgb::grey(0.1), Rgb::grey(0.45), {}}));
+    const MaterialId bright =
+        add_material(scene, materials::Translucent({Rgb::grey(0.5), Rgb::grey(0.45), {}}));
+    scene.materials[index_of(scene.objects.back().materials[0])].back = bright;
+    add_point_light(scene, {2.95, 1.95, 1.7}, 60 * kWhite);
+    return scene;
+}
+
 /// A sheet that divides a part of the room, and a shade around a lamp.
 Scene translucent_things() {
     Scene scene;
@@ -512,6 +529,7 @@ std::span<const AgreementScene> agreement_scenes() {
         {"OnlyDiffuseTwice", nothing, 2, closed_box, inside, {}},
         {"RoughMetal", nothing, {}, rough_box, inside, {}},
         {"Translucent", nothing, {}, translucent_things, inside, {}, {}, 1, 3},
+        {"DifferentSides", nothing, {}, different_sides, inside, around, {}, 1, 3},
         {"Frosted", finite_variance, {}, frosted_things, inside, around, {}, 1, 8},
         {"TranslucentTwoReflections", nothing, 2, translucent_things, inside, around, {}, 1, 4},
         {"BrushedWard", nothing, {}, ward_box, inside, {}},

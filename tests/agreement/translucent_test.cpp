@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <string>
@@ -91,18 +92,19 @@ TEST_P(Translucent, FrostedGlassIsInvisibleUnderAnEvenSky) {
         expect_exact(all[i], i == 0 ? 100 * kPi : 100, error, fmt::format("sensor {}", i));
 }
 
-/// A lamp in the middle of a shell in the dark. Inside, E = E0 / (1 - reflectance) with E0 = I / r^2.
-/// Outside, the shell's luminance is what it transmits of that and what passes straight of the luminance
-/// behind it, and so its illuminance at the distance d is (r / d)^2 pi times as much; the lamp's own light
-/// passes straight.
+/// A lamp in the middle of a shell in the dark, which is darker outside. Inside, E = E0 / (1 - reflectance)
+/// with E0 = I / r^2. Outside, the shell's luminance is what it transmits of that and what passes straight of
+/// the luminance behind it, and so its illuminance at the distance d is (r / d)^2 pi times as much; the
+/// lamp's own light passes straight.
 TEST_P(Translucent, ShellsAroundALampLightWhatIsOutside) {
     const double r = 0.5, d = 2, intensity = 1000 / (4 * kPi),
                  inside = intensity / (r * r) / (1 - kReflected);
     // An exact sphere has no guess.
     const double error = (GetParam() == std::string("guided") ? 4 : 1) * this->error();
     std::string text = fmt::format(
-        "[materials.shell]\ntype = \"translucent\"\nreflectance = {}\ntransmittance = {}\n"
-        "specular_transmittance = {}\n[objects.shell]\nshape = \"sphere\"\ncenter = [0, 0, 0]\nradius = "
+        "[materials.shell]\ntype = \"translucent\"\nreflectance = 0.05\ntransmittance = {1}\n"
+        "specular_transmittance = {2}\nback = {{ reflectance = {0} }}\n[objects.shell]\nshape = "
+        "\"sphere\"\ncenter = [0, 0, 0]\nradius = "
         "0.5\nmaterial = \"shell\"\n"
         "[lights.lamp]\ntype = \"point\"\nposition = [0, 0, 0]\nflux = 1000\n"
         "[sensors.outside]\ntype = \"illuminance\"\nposition = [0, 0, 2]\nnormal = [0, 0, -1]\n",
@@ -118,6 +120,33 @@ TEST_P(Translucent, ShellsAroundALampLightWhatIsOutside) {
     if (!measures_luminance()) return;
     expect_exact(all[1], luminance, error, "seen from outside");
     expect_exact(all[2], kReflected * inside / kPi, error, "seen from inside");
+}
+
+/// A wall between two rooms lights each of them as a wall that is on both sides what it is on this one.
+TEST_P(Translucent, WallsLightEachRoomByItsOwnSide) {
+    const auto rooms = [&](const std::string& wall) {
+        return "[materials.rest]\ntype = \"diffuse\"\nreflectance = 0.6\n[materials.wall]\n" + wall +
+               "\n[objects.rooms]\nshape = \"box\"\nmin = [0, 0, 0]\nmax = [6, 4, 3]\nmaterial = \"rest\"\n"
+               "[objects.wall]\nshape = \"rectangle\"\ncorner = [3, 0, 0]\nedge_u = [0, 4, 0]\n"
+               "edge_v = [0, 0, 3]\nmaterial = \"wall\"\n"
+               "[lights.back]\ntype = \"point\"\nposition = [1.5, 2, 2]\nflux = 3000\n"
+               "[lights.front]\ntype = \"point\"\nposition = [4.5, 2, 2]\nflux = 1000\n"
+               "[sensors.back]\ntype = \"illuminance\"\nposition = [2, 2, 1.5]\nnormal = [0, 0, 1]\n"
+               "[sensors.front]\ntype = \"illuminance\"\nposition = [4, 2, 1.5]\nnormal = [0, 0, 1]\n";
+    };
+    const std::string front = "type = \"diffuse\"\nreflectance = [0.2, 0.1, 0.3]";
+    const std::string back = "type = \"phong\"\ndiffuse = 0.5\nspecular = 0.3\nexponent = 5";
+    const auto both =
+        measured(rooms(front + "\nback = { type = \"phong\", diffuse = 0.5, specular = 0.3, exponent = 5 }"),
+                 GetParam(), error());
+    const std::array alone{measured(rooms(back), GetParam(), error())[0],
+                           measured(rooms(front), GetParam(), error())[1]};
+    for (std::size_t i = 0; i < alone.size(); ++i) {
+        const double error_lx = std::hypot(alone[i].value.standard_error, both[i].value.standard_error);
+        EXPECT_NEAR(both[i].value.value, alone[i].value.value, 4.5 * error_lx)
+            << i << ", " << both[i].technique;
+        EXPECT_LT(error_lx, 0.02 * coarser() * both[i].value.value) << "the sides differ by more than 10 %";
+    }
 }
 
 INSTANTIATE_TEST_SUITE_P(Methods, Translucent,

@@ -110,6 +110,26 @@ TEST_F(Export, MitsubaGetsLuminances) {
     EXPECT_TRUE(contains(content("stilb_plugins.py"), "mi.register_bsdf(\"stilb_phong\""));
 }
 
+TEST_F(Export, MaterialsWithABackAreTwo) {
+    const std::string scene =
+        std::string(kExportedRoom) +
+        "[materials.sides]\ntype = \"diffuse\"\nreflectance = 0.2\n"
+        "back = { type = \"black\" }\n[objects.wall]\nshape = \"rectangle\"\ncorner = [2, 0, 0]\n"
+        "edge_u = [0, 1, 0]\nedge_v = [0, 0, 1]\nmaterial = \"sides\"\n";
+    export_scene(read_scene_text(scene), ExportFormat::mitsuba, folder_);
+    const std::string mitsuba = content("scene.xml");
+    EXPECT_TRUE(contains(mitsuba,
+                         "<bsdf type=\"twosided\" id=\"material_sides_sides\">\n    <ref "
+                         "id=\"material_sides\"/>\n    <ref id=\"material_sides__back_\"/>\n  </bsdf>"));
+    EXPECT_TRUE(contains(mitsuba, "<ref id=\"material_sides_sides\"/>\n  </shape>")) << mitsuba;
+    export_scene(read_scene_text(scene), ExportFormat::radiance, folder_);
+    const std::string radiance = content("scene.rad");
+    EXPECT_TRUE(contains(radiance,
+                         "void mixfunc material_sides_sides\n4 material_sides material_sides__back_ "
+                         "if(Rdot,1,0) .\n0\n0\n"));
+    EXPECT_TRUE(contains(radiance, "material_sides_sides polygon wall"));
+}
+
 TEST_F(Export, PointsHavePositionAndNormal) {
     write(ExportFormat::radiance);
     EXPECT_EQ(content("desk.pts"), "0.5 0.5 0.75 0 0 1\n1.5 0.5 0.75 0 0 1\n");

@@ -1,6 +1,10 @@
+#include <algorithm>
+
 #include "io/scene_text.h"
+#include "materials/mirror.h"
 #include "materials/plastic.h"
 #include "materials/rough_conductor.h"
+#include "materials/translucent.h"
 #include "materials/ward.h"
 
 namespace stilb::io {
@@ -135,6 +139,63 @@ TEST(SceneMaterials, ReadsPlastic) {
         "\"mirror\").");
     EXPECT_REFUSAL(material(plastic + "roughness = 0.1"),
                    "s.toml:1: materials.m: key \"ior\" is missing for type \"plastic\".");
+}
+
+constexpr const char* kSheet = "type = \"translucent\"\nreflectance = 0.3\ntransmittance = 0.4\n";
+
+TEST(SceneMaterials, BacksAreOtherMaterialsOrTheSameWithOtherValues) {
+    const SceneFile file = read_scene_text(
+        "[materials.wall]\ntype = \"diffuse\"\nreflectance = 0.2\nback = { type = \"mirror\", reflectance = "
+        "0.9 }\n"
+        "[materials.sheet]\n" +
+        std::string(kSheet) +
+        "back = { reflectance = [0.1, 0.2, 0.3] }\n"
+        "[objects.wall]\nshape = \"rectangle\"\ncorner = [0, 0, 0]\nedge_u = [1, 0, 0]\nedge_v = [0, 1, 0]\n"
+        "material = \"wall\"\n");
+    const auto& materials = file.scene.materials;
+    ASSERT_EQ(materials.size(), 4u);
+    EXPECT_EQ(index_of(*materials[0].back), 2u);
+    EXPECT_EQ(materials[2].name, "wall (back)");
+    EXPECT_TRUE(materials[2].material.is<materials::Mirror>());
+    EXPECT_EQ(index_of(*materials[1].back), 3u);
+    const auto& back = materials[3].material.get_if<materials::Translucent>()->parameters();
+    EXPECT_EQ(back.reflectance, (Rgb{{0.1, 0.2, 0.3}}));
+    EXPECT_EQ(back.transmittance, Rgb::grey(0.4));
+    ASSERT_EQ(std::ranges::count_if(file.warnings,
+                                    [](const Warning& warning) {
+                                        return warning.text.find("no object has this material") !=
+                                               std::string::npos;
+                                    }),
+              1)
+        << "the sheet, and its back not once more";
+}
+
+TEST(SceneMaterials, RefusesBacksThatCannotBe) {
+    EXPECT_REFUSAL(
+        material(std::string(kSheet) + "back = { transmittance = 0.3 }"),
+        "s.toml:5: materials.m.back: both sides transmit the same share of the light: transmittance and "
+        "specular_transmittance must be as on the front.");
+    EXPECT_REFUSAL(
+        material(std::string(kSheet) + "back = { type = \"black\" }"),
+        "s.toml:5: materials.m.back: \"translucent\" and \"black\" cannot be the sides of one surface: of "
+        "the materials that let light through, only translucent ones have a back, which is translucent, "
+        "too.");
+    EXPECT_REFUSAL(
+        material("type = \"glass\"\nior = 1.5\nback = { ior = 1.4 }"),
+        "s.toml:4: materials.m.back: \"glass\" and \"glass\" cannot be the sides of one surface: of the "
+        "materials that let light through, only translucent ones have a back, which is translucent, too.");
+    EXPECT_REFUSAL(
+        material("type = \"diffuse\"\nreflectance = 0.5\nback = { reflektance = 0.4 }"),
+        "s.toml:4: materials.m.back: unknown key \"reflektance\" for type \"diffuse\". Did you mean "
+        "\"reflectance\"? Allowed: type, reflectance.");
+    EXPECT_REFUSAL(material("type = \"diffuse\"\nreflectance = 0.5\nback = 0.4"),
+                   "s.toml:4: materials.m.back: found the number 0.4 where a table is needed.");
+    EXPECT_REFUSAL(material("type = \"diffuse\"\nreflectance = 0.5\nback = { back = { reflectance = 0.4 } }"),
+                   "s.toml:4: materials.m.back: a back has no back of its own.");
+    EXPECT_REFUSAL(
+        material("type = \"diffuse\"\nreflectance = 0.5\nback = { reflectance = 1.4 }"),
+        "s.toml:4: materials.m.back.reflectance: 1.4 is not allowed. Allowed: from 0 to 1 (no surface "
+        "reflects more light than it receives).");
 }
 
 }  // namespace

@@ -146,11 +146,12 @@ std::vector<Setting> settings_of(const RandomScene& random, const Options& optio
     Setting apart{draw.one_of({"auto", "path", "light-paths", "guided"})};
     apart.apart = draw.one_of({Apart::lights, Apart::bounces, Apart::light_scene});
     settings.push_back(apart);
-    // Patches keep the light that surfaces reflect only.
-    const bool scatters_through = std::ranges::any_of(random.draft.materials, [](const Part& material) {
-        return material.text("type") == "translucent" || material.text("type") == "frosted";
+    // Patches keep the light that surfaces reflect only, alike on both sides.
+    const bool has_no_patches = std::ranges::any_of(random.draft.materials, [](const Part& material) {
+        return material.text("type") == "translucent" || material.text("type") == "frosted" ||
+               material.find("back") != nullptr;
     });
-    if (options.is_long && !scatters_through) {
+    if (options.is_long && !has_no_patches) {
         for (const char* const method : {"ray-bundle", "radiosity", "particles"})
             settings.push_back({method});
     }

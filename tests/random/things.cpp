@@ -58,6 +58,24 @@ std::string add_sheet_material(Draft& draft, Draw& draw) {
         .name;
 }
 
+/// Opaque materials get another one on their back, translucent sheets another reflectance.
+void add_back(Draft& draft, Draw& draw, const std::string& material) {
+    const auto part = [&](std::string_view name) {
+        return std::ranges::find(draft.materials, name, &Part::name);
+    };
+    const std::string type = part(material)->text("type");
+    if (type == "translucent") {
+        Part back;
+        back.set("reflectance", colour(draw, 0.05, 0.4));
+        part(material)->set("back", {back.keys});
+    } else if (type != "glass" && type != "pane" && type != "glazing" && type != "frosted") {
+        const auto back = part(add_material(draft, draw));
+        TomlMembers keys = std::move(back->keys);
+        draft.materials.erase(back);
+        part(material)->set("back", {std::move(keys)});
+    }
+}
+
 void add_thing(Draft& draft, Draw& draw, const Site& site) {
     const double radius = site.least() * draw.by_size(0.02, 0.25);
     const Vec3 margin{radius, radius, radius};
@@ -67,6 +85,7 @@ void add_thing(Draft& draft, Draw& draw, const Site& site) {
     const std::string material = draw.chance(0.06)   ? add_clear_material(draft, draw, is_solid)
                                  : draw.chance(0.06) ? add_sheet_material(draft, draw)
                                                      : add_material(draft, draw);
+    if (draw.chance(0.2)) add_back(draft, draw, material);
     switch (shape) {
         case 0:
             draft.add_object("box", material)

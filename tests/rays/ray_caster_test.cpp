@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <limits>
 #include <optional>
 #include <thread>
@@ -14,9 +15,11 @@
 #include "geometry/transform.h"
 #include "materials/black.h"
 #include "materials/diffuse.h"
+#include "math/sampling.h"
 #include "stilb/error.h"
 #include "support/closed_meshes.h"
 #include "support/harmonic_shapes.h"
+#include "support/random_pairs.h"
 
 namespace stilb::rays {
 namespace {
@@ -212,6 +215,51 @@ TEST_F(Clutter, PacketsAgreeWithSingleRays) {
     }
     EXPECT_GT(occluded, kRays / 20);
     EXPECT_LE(different, kMostAtEdges);
+}
+
+/// A hit has the material of the side that was met: of flat surfaces, of a mesh with a material for each
+/// triangle, of curved ones.
+TEST(RayCaster, HitsHaveTheMaterialOfTheirSide) {
+    Scene scene;
+    constexpr std::uint32_t kOthers = 4;  // from there on, materials of backs
+    for (std::uint32_t i = 0; i < 2 * kOthers; ++i) {
+        scene.materials.push_back({fmt::format("m{}", i), materials::Black{}});
+        if (i < kOthers && i != 1) scene.materials.back().back = MaterialId{i + kOthers};
+    }
+    const Mesh two{{{0, 0, 2}, {4, 0, 2}, {4, 4, 2}, {0, 4, 2}}, {{{0, 1, 2}}, {{0, 2, 3}}}};
+    scene.objects = {{"flat", Rectangle{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {MaterialId{0}}},
+                     {"mesh", two, {MaterialId{1}, MaterialId{2}}},
+                     {"ball", Sphere{{2, 2, 1}, 0.5}, {MaterialId{3}}}};
+    const RayCaster caster(scene);
+    RandomPairs random(3);
+    std::array<int, 2 * kOthers> met{};
+    for (int round = 0; round < 100; ++round) {
+        RayHitPacket packet;
+        LaneMask lanes;
+        lanes.fill(-1);
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            const auto [u1, u2] = random.next_pair();
+            const Vec3 origin{4 * random.next(), 4 * random.next(), 4 * random.next() - 1};
+            packet.ray.set(i, origin - caster.center(), math::sample_sphere(u1, u2).direction,
+                           std::numeric_limits<float>::infinity());
+        }
+        caster.closest(packet, lanes, Coherence::scattered);
+        SurfacePacket surfaces;
+        caster.surfaces(packet, surfaces);
+        for (std::size_t i = 0; i < kPacketWidth; ++i) {
+            if (surfaces.object[i] == kNothing) continue;
+            const Hit hit = caster.hit(packet, i);
+            const std::uint32_t front = index_of(hit.object) == 1   ? 1 + hit.triangle
+                                        : index_of(hit.object) == 2 ? 3
+                                                                    : 0;
+            const std::uint32_t expected = hit.on_front || front == 1 ? front : front + kOthers;
+            EXPECT_EQ(index_of(hit.material), expected);
+            EXPECT_EQ(surfaces.material[i], expected);
+            ++met[expected];
+        }
+    }
+    for (std::uint32_t i = 0; i < met.size(); ++i)
+        EXPECT_EQ(met[i] > 10, i != 1 + kOthers) << i << ": " << met[i];
 }
 
 class ClosedMeshes : public testing::TestWithParam<std::tuple<std::size_t, double>> {};

@@ -136,6 +136,15 @@ void write_mitsuba(const SceneFile& file, Output& output) {
         materials.push_back(identifiers.make("material_" + material.name));
         xml += mitsuba_material(material, materials.back(), output);
     }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto& back = scene.materials[i].back;
+        if (!back) continue;
+        const std::string id = identifiers.make(materials[i] + "_sides");
+        xml += fmt::format(
+            "  <bsdf type=\"twosided\" id=\"{}\">\n    <ref id=\"{}\"/>\n    <ref id=\"{}\"/>\n  </bsdf>\n",
+            id, materials[i], materials[index_of(*back)]);
+        materials[i] = id;
+    }
     for (const Surface& surface : surfaces_of(scene, identifiers, output)) {
         xml += mitsuba_shape(surface, materials[index_of(surface.material)], output);
     }

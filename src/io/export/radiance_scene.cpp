@@ -117,6 +117,14 @@ void write_radiance(const SceneFile& file, Output& output) {
         materials.push_back(identifiers.make("material_" + material.name));
         text += radiance_material(material, materials.back(), output);
     }
+    for (std::size_t i = 0; i < scene.materials.size(); ++i) {
+        const auto& back = scene.materials[i].back;
+        if (!back) continue;
+        const std::string id = identifiers.make(materials[i] + "_sides");
+        text += radiance_primitive("void", "mixfunc", id,
+                                   {materials[i], materials[index_of(*back)], "if(Rdot,1,0)", "."}, {});
+        materials[i] = id;
+    }
     for (const Surface& surface : surfaces_of(scene, identifiers, output)) {
         std::string modifier = materials[index_of(surface.material)];
         if (surface.luminance_cd_m2) {

@@ -104,6 +104,7 @@ std::string fingerprint_of(const Scene& scene) {
     }
     for (const NamedMaterial& material : scene.materials) {
         print.add(material.name);
+        if (material.back) print.add(*material.back);
         materials::visit_model(
             [&]<typename Model>(const Model& model) {
                 print.add(Model::kType);

@@ -61,21 +61,6 @@ Parameters read_fields(const TomlTable& table) {
     return parameters;
 }
 
-/// "type", and the keys of the parameters.
-template <typename Parameters>
-std::vector<std::string_view> typed_keys() {
-    std::vector<std::string_view> keys = keys_of<Parameters>();
-    keys.insert(keys.begin(), "type");
-    return keys;
-}
-
-/// Reads a table that has these keys, a "type" equal to `type`, and no others.
-template <typename Parameters>
-Parameters read_typed_fields(TomlTable& table, std::string_view type) {
-    table.expect_keys(typed_keys<Parameters>(), fmt::format("type \"{}\"", type));
-    return read_fields<Parameters>(table);
-}
-
 // Reads a sensor by the list of its fields: one function for each kind of key of sensors/fields.h.
 
 /// The context for reading a table; warnings are for values that are unusual but not wrong.

@@ -54,17 +54,15 @@ TomlTable section_of(const TomlTable& root, std::string_view name, const TomlTab
     return item ? item->table() : none;
 }
 
-/// `first`: the first material of the section.
-void warn_of_unused_materials(const TomlTable& section, std::size_t first, SceneFile& file) {
+void warn_of_unused_materials(const TomlTable& section, SceneFile& file) {
     const Scene& scene = file.scene;
     std::vector<bool> is_used(scene.materials.size());
     for (const Object& object : scene.objects) {
         for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
     }
-    for (std::size_t m = first; m < is_used.size(); ++m) {
-        if (is_used[m]) continue;
-        file.warnings.push_back(
-            fmt::format("{}: no object has this material.", section.at(scene.materials[m].name).where()));
+    for (std::size_t m = 0; m < is_used.size(); ++m) {
+        const auto item = is_used[m] ? std::nullopt : section.find(scene.materials[m].name);
+        if (item) file.warnings.push_back(fmt::format("{}: no object has this material.", item->where()));
     }
 }
 
@@ -233,16 +231,14 @@ SceneFile read_scene(const TomlMembers& members, const std::string& name,
     require_new_names(objects, file.scene.objects);
     require_new_names(lights, file.scene.lights);
     require_new_names(sensors, file.sensors);
-    const std::size_t first_material = file.scene.materials.size();
-    std::ranges::move(read_materials(materials, defaults("materials", material_types())),
-                      std::back_inserter(file.scene.materials));
+    read_materials(materials, defaults("materials", material_types()), file.scene);
     PartsOfObjects parts = read_objects(objects, directory, file, monitor);
     const TomlTable run = section_of(root, "run", none);
     if (!run.members().empty()) file.run = read_run(run);
     read_lights(lights,
                 {defaults("lights", lamp_types()), read_maintenance(run, 1), std::move(parts), directory},
                 file);
-    warn_of_unused_materials(materials, first_material, file);
+    warn_of_unused_materials(materials, file);
     std::ranges::move(scene::settle_glass(file.scene), std::back_inserter(file.warnings));
     scene::put_lamps_in_front(file.scene);
     std::erase_if(file.warnings, is_of(WarningKind::no_light));
@@ -291,15 +287,38 @@ void read_value(const TomlItem& item, const Range& range, materials::SharesByAng
 
 namespace {
 
+template <typename Model>
+std::vector<std::string_view> material_keys() {
+    std::vector<std::string_view> keys = io::keys_of<materials::ParametersOf<Model>>();
+    keys.insert(keys.begin(), "type");
+    keys.emplace_back("back");
+    return keys;
+}
+
 /// Each model reads its own parameters.
 Material read_material(TomlTable& table) {
     const std::string_view type = table.choose("type", materials::type_names());
     std::optional<Material> read;
     materials::for_each_model([&]<typename Model>() {
-        if (type == Model::kType)
-            read = Model(read_typed_fields<materials::ParametersOf<Model>>(table, Model::kType));
+        if (type != Model::kType) return;
+        table.expect_keys(material_keys<Model>(), fmt::format("type \"{}\"", type));
+        read = Model(read_fields<materials::ParametersOf<Model>>(table));
     });
     return *read;
+}
+
+/// Reads `back = { ... }`: another material, or, without a type, the same one with some other values.
+Material read_back(const TomlTable& table, const Material& front) {
+    TomlTable back = table.at("back").table();
+    TomlMembers members = back.members();
+    for (const TomlMember& member : table.members()) {
+        if (!back.has("type") && member.key != "back" && !back.has(member.key)) members.push_back(member);
+    }
+    if (back.has("back")) back.fail("a back has no back of its own.");
+    TomlTable whole = back.with(std::move(members));
+    Material read = read_material(whole);
+    if (const auto message = contradiction_of_sides(front, read)) back.fail(*message);
+    return read;
 }
 
 }  // namespace
@@ -307,17 +326,22 @@ Material read_material(TomlTable& table) {
 std::vector<TypeKeys> material_types() {
     std::vector<TypeKeys> types;
     materials::for_each_model([&]<typename Model>() {
-        types.push_back({Model::kType, typed_keys<materials::ParametersOf<Model>>()});
+        types.push_back({Model::kType, material_keys<Model>()});
     });
     return types;
 }
 
-std::vector<NamedMaterial> read_materials(const TomlTable& section, const Defaults& defaults) {
-    std::vector<NamedMaterial> materials;
-    for (auto& [name, table] : named_tables(section, defaults)) {
-        materials.push_back({name, read_material(table)});
+void read_materials(const TomlTable& section, const Defaults& defaults, Scene& scene) {
+    std::vector<NamedTable> tables = named_tables(section, defaults);
+    const std::size_t first = scene.materials.size();
+    for (auto& [name, table] : tables) scene.materials.push_back({name, read_material(table)});
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+        const auto& [name, table] = tables[i];
+        if (!table.has("back")) continue;
+        const auto back = static_cast<std::uint32_t>(scene.materials.size());
+        scene.materials.push_back({name + " (back)", read_back(table, scene.materials[first + i].material)});
+        scene.materials[first + i].back = MaterialId{back};
     }
-    return materials;
 }
 
 }  // namespace stilb::io

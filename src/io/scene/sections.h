@@ -24,7 +24,8 @@ std::vector<NamedTable> named_tables(const TomlTable& section);
 /// The same, each table with the defaults that it takes.
 std::vector<NamedTable> named_tables(const TomlTable& section, const Defaults& defaults);
 
-std::vector<NamedMaterial> read_materials(const TomlTable& section, const Defaults& defaults);
+/// Adds the section's materials to the scene, and behind all of these the materials of backs.
+void read_materials(const TomlTable& section, const Defaults& defaults, Scene& scene);
 /// Objects refer to the materials of `file.scene`. Returns the parts of those that are meshes.
 PartsOfObjects read_objects(const TomlTable& section, const std::filesystem::path& directory, SceneFile& file,
                             const Monitor& monitor);

@@ -33,7 +33,7 @@ PossibleLight::PossibleLight(const Scene& scene, const rays::RayCaster& caster, 
     : scene_(scene), caster_(caster), lights_(scene, caster) {
     if (max_reflections == 0) return;
     for (const Object& object : scene.objects) {
-        const bool reflects = std::ranges::any_of(object.materials, [&](MaterialId material) {
+        const bool reflects = std::ranges::any_of(materials_of(scene, object), [&](MaterialId material) {
             return reflectance_bound(scene.material(material)).max() > 0;
         });
         if (reflects) reflecting_.push_back(bounds_of(object.shape));

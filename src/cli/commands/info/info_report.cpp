@@ -112,12 +112,9 @@ Json shape_json(const std::string& name, const Shape& shape,
 
 Json object_json(const Object& object, const geometry::ConnectedComponents& components, const Scene& scene) {
     Json json = shape_json(object.name, object.shape, components);
-    std::vector<bool> is_used(scene.materials.size());
-    for (const MaterialId material : object.materials) is_used[index_of(material)] = true;
     Json& names = json["materials"] = Json::array();
-    for (std::size_t m = 0; m < is_used.size(); ++m) {
-        if (is_used[m]) names.push_back(scene.materials[m].name);
-    }
+    for (const MaterialId material : materials_of(scene, object))
+        names.push_back(scene.materials[index_of(material)].name);
     return json;
 }
 

@@ -46,6 +46,11 @@ std::vector<materials::SplitMaterial> split_materials(const Scene& scene) {
 std::vector<std::uint8_t> traced_materials(const Scene& scene) {
     std::vector<std::uint8_t> traced;
     for (const auto& named : scene.materials) traced.push_back(is_traced(named.material) ? 1 : 0);
+    // Patches are of surfaces of which neither side is traced.
+    for (std::size_t i = 0; i < traced.size(); ++i) {
+        const auto back = index_of(scene.on_side(MaterialId{static_cast<std::uint32_t>(i)}, false));
+        traced[i] = traced[back] = traced[i] | traced[back];
+    }
     return traced;
 }
 
@@ -246,7 +251,8 @@ struct LightGuess::Solver {
 LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const BoundedDirect& direct,
                        const transport::PathTracer& tracer, math::KeyOf<Stream> key,
                        const transport::Channels* channels, const Monitor& monitor)
-    : materials_(split_materials(scene)),
+    : scene_(scene),
+      materials_(split_materials(scene)),
       is_traced_material_(traced_materials(scene)),
       is_traced_object_(traced_objects(scene)),
       patches_(
@@ -257,8 +263,9 @@ LightGuess::LightGuess(const Scene& scene, const rays::RayCaster& caster, const 
       channels_(channels) {
     std::vector<std::uint32_t> sides;
     for (std::uint32_t p = 0; p < patches().count(); ++p) {
-        if (material(p).diffuse_reflectance.max() > 0)
-            sides.insert(sides.end(), {p, patches().other_side(p)});
+        for (const std::uint32_t side : {p, patches().other_side(p)}) {
+            if (material(side).diffuse_reflectance.max() > 0) sides.push_back(side);
+        }
     }
     const Solver solver{*this, caster, direct, tracer, key, monitor};
     lit_sides_ = solver.lit(solver.cast(std::move(sides), 1, Stream::survey));

@@ -66,7 +66,8 @@ class LightGuess {
     /// The sides that light reaches and that reflect it, ascending.
     const std::vector<std::uint32_t>& lit_sides() const { return lit_sides_; }
     const materials::SplitMaterial& material(std::uint32_t side) const {
-        return materials_[index_of(patches().materials[patches().patch_of(side)])];
+        const MaterialId front = patches().materials[patches().patch_of(side)];
+        return material(scene_.on_side(front, patches().is_front(side)));
     }
     const materials::SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
     /// Whether the surface that a ray has met is traced.
@@ -109,6 +110,7 @@ class LightGuess {
     /// Takes hits of shared places to the owners.
     void go_to_owners(patches::PatchHits& hits) const;
 
+    const Scene& scene_;
     std::vector<materials::SplitMaterial> materials_;                  ///< per material of the scene
     std::vector<std::uint8_t> is_traced_material_, is_traced_object_;  ///< per material, per object
     patches::RegularPatches patches_;                                  ///< of surfaces that are not traced
