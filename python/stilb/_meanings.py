@@ -15,6 +15,7 @@ KINDS = {
         "pane": "A thin sheet of clear glass.",
         "glazing": "A pane, or several, by the shares of a data sheet.",
         "translucent": "A thin sheet that scatters the light that it lets through.",
+        "fabric": "A woven shade, by its product sheet.",
         "frosted": "Glass with rough faces: the surface of a solid, or a thin sheet.",
         "black": "A surface that reflects nothing.",
     },
@@ -61,6 +62,7 @@ KEYS = {
         "exponent": "of the lobe, 0 to 1e6: the higher, the narrower",
         "roughness": "alpha of GGX, about the slope of the facets, 0.001 to 1",
         "ior": "refractive index, 1 to 4",
+        "back": "the material of the back, a dict: with a type, or the same with other values (default: no other)",
     },
     "materials.ward": {
         "roughness": "slopes (u, v) of the surface along its two axes, 0.001 to 1",
@@ -79,6 +81,10 @@ KEYS = {
     "materials.translucent": {
         "transmittance": "share that is transmitted diffusely, 0 to 1, or (r, g, b)",
         "specular_transmittance": "share that passes straight, 0 to 1, or (r, g, b) (default: 0)",
+    },
+    "materials.fabric": {
+        "openness": "share of the area that is holes, 0 to 1",
+        "transmittance": "share along the normal that is transmitted, straight or scattered, 0 to 1, or (r, g, b)",
     },
     "materials.frosted": {
         "roughness": "alpha of GGX, of its faces, 0.001 to 1",

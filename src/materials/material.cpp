@@ -197,21 +197,23 @@ Rgb stated_reflectance(const Material& material) {
 
 std::optional<std::string> contradiction_of_sides(const Material& front, const Material& back) {
     if (!transmits(front) && !transmits(back)) return std::nullopt;
-    const auto* sheet = front.get_if<Translucent>();
-    const auto* other = back.get_if<Translucent>();
-    if (sheet == nullptr || other == nullptr) {
+    const auto transmits_alike = visit_model(
+        [&]<typename M>(const M& model) -> std::optional<bool> {
+            const M* other = back.get_if<M>();
+            if constexpr (requires { model.parameters().transmits_as(model.parameters()); }) {
+                if (other) return model.parameters().transmits_as(other->parameters());
+            }
+            return std::nullopt;
+        },
+        front);
+    if (!transmits_alike) {
         return fmt::format(
             "\"{}\" and \"{}\" cannot be the sides of one surface: of the materials that let light through, "
-            "only "
-            "translucent ones have a back, which is translucent, too.",
+            "translucent ones and fabrics have a back, of the same type.",
             type_name(front), type_name(back));
     }
-    if (sheet->parameters().transmittance == other->parameters().transmittance &&
-        sheet->parameters().specular_transmittance == other->parameters().specular_transmittance)
-        return std::nullopt;
-    return "both sides transmit the same share of the light: transmittance and specular_transmittance must "
-           "be "
-           "as on the front.";
+    if (*transmits_alike) return std::nullopt;
+    return "both sides transmit the same share of the light: only the reflectance may differ.";
 }
 
 void validate(const Material& material, std::string_view path) {

@@ -9,6 +9,7 @@
 #include "materials/black.h"
 #include "materials/dielectric.h"
 #include "materials/diffuse.h"
+#include "materials/fabric.h"
 #include "materials/frosted.h"
 #include "materials/glazing.h"
 #include "materials/material.h"
@@ -25,7 +26,7 @@ namespace stilb::materials {
 
 /// In the order of lists for users.
 using ModelList = std::tuple<Diffuse, Phong, RoughConductor, Ward, Plastic, Mirror, Dielectric,
-                             ThinDielectric, Glazing, Translucent, Frosted, Black>;
+                             ThinDielectric, Glazing, Translucent, Fabric, Frosted, Black>;
 /// Models that are lobes of others only.
 using LobeList = std::tuple<Straight, MirroringFacets, RefractingFacets>;
 

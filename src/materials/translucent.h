@@ -31,6 +31,10 @@ class Translucent {
             return contradiction_of_shares(reflectance + transmittance, specular_transmittance,
                                            "reflectance + transmittance + specular_transmittance");
         }
+        bool transmits_as(const Parameters& other) const {
+            return transmittance == other.transmittance &&
+                   specular_transmittance == other.specular_transmittance;
+        }
     };
     static constexpr std::string_view kType = "translucent";
 

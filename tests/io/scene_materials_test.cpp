@@ -16,22 +16,23 @@ TEST(SceneMaterials, SuggestsTheNearestKey) {
     EXPECT_REFUSAL(
         material("type = \"phong\"\ndiffuse = 0.3\nexponnent = 60"),
         "s.toml:4: materials.m: unknown key \"exponnent\" for type \"phong\". Did you mean \"exponent\"? "
-        "Allowed: type, diffuse, specular, exponent.");
-    EXPECT_REFUSAL(material("type = \"black\"\nreflectance = 0"),
-                   "s.toml:3: materials.m: unknown key \"reflectance\" for type \"black\". Allowed: type.");
+        "Allowed: type, diffuse, specular, exponent, back.");
+    EXPECT_REFUSAL(
+        material("type = \"black\"\nreflectance = 0"),
+        "s.toml:3: materials.m: unknown key \"reflectance\" for type \"black\". Allowed: type, back.");
 }
 
 TEST(SceneMaterials, RefusesUnknownTypes) {
     EXPECT_REFUSAL(
         material("type = \"difuse\""),
         "s.toml:2: materials.m.type: unknown type \"difuse\". Did you mean \"diffuse\"? Allowed: diffuse, "
-        "phong, rough, ward, plastic, mirror, glass, pane, glazing, translucent, frosted, black.");
+        "phong, rough, ward, plastic, mirror, glass, pane, glazing, translucent, fabric, frosted, black.");
 }
 
 TEST(SceneMaterials, RefusesMissingKeys) {
     EXPECT_REFUSAL("\n[materials.m]\nreflectance = 1",
                    "s.toml:2: materials.m: key \"type\" is missing. Allowed: diffuse, phong, rough, ward, "
-                   "plastic, mirror, glass, pane, glazing, translucent, frosted, black.");
+                   "plastic, mirror, glass, pane, glazing, translucent, fabric, frosted, black.");
     EXPECT_REFUSAL(material("type = \"diffuse\""),
                    "s.toml:1: materials.m: key \"reflectance\" is missing for type \"diffuse\".");
 }
@@ -88,7 +89,7 @@ TEST(SceneMaterials, ReadsRough) {
     EXPECT_REFUSAL(material(rough + "roughness = 1.5"), "s.toml:4: materials.m.roughness: 1.5" + allowed);
     EXPECT_REFUSAL(material(rough + "roughnes = 0.3"),
                    "s.toml:4: materials.m: unknown key \"roughnes\" for type \"rough\". Did you mean "
-                   "\"roughness\"? Allowed: type, reflectance, roughness.");
+                   "\"roughness\"? Allowed: type, reflectance, roughness, back.");
     EXPECT_REFUSAL(material(rough),
                    "s.toml:1: materials.m: key \"roughness\" is missing for type \"rough\".");
     EXPECT_REFUSAL(material("type = \"rough\"\nreflectance = 1.2\nroughness = 0.3"),
@@ -121,7 +122,7 @@ TEST(SceneMaterials, ReadsWard) {
     EXPECT_REFUSAL(
         material(ward + "rotatoin = 3"),
         "s.toml:6: materials.m: unknown key \"rotatoin\" for type \"ward\". Did you mean \"rotation\"? "
-        "Allowed: type, diffuse, specular, roughness, rotation.");
+        "Allowed: type, diffuse, specular, roughness, rotation, back.");
 }
 
 TEST(SceneMaterials, ReadsPlastic) {
@@ -142,6 +143,22 @@ TEST(SceneMaterials, ReadsPlastic) {
 }
 
 constexpr const char* kSheet = "type = \"translucent\"\nreflectance = 0.3\ntransmittance = 0.4\n";
+
+TEST(SceneMaterials, FabricsTransmitWhatTheirHolesDoAtLeast) {
+    const std::string fabric = "type = \"fabric\"\nreflectance = 0.4\n";
+    EXPECT_REFUSAL(
+        material(fabric + "openness = 0.05\ntransmittance = [0.1, 0.04, 0.1]"),
+        "s.toml:1: materials.m: its openness exceeds its transmittance, which includes the light that passes "
+        "through the holes.");
+    EXPECT_REFUSAL(
+        material(fabric + "openness = 0.05\ntransmittance = 0.7"),
+        "s.toml:1: materials.m: reflectance + transmittance is 1.1: no surface reflects more light than it "
+        "receives. Allowed: at most 1 in each channel.");
+    const SceneFile file = read_scene_text("[materials.m]\n" + fabric +
+                                           "openness = 0.05\ntransmittance = 0.05\n"
+                                           "back = { reflectance = 0.1 }\n");
+    EXPECT_EQ(file.scene.materials.size(), 2u);
+}
 
 TEST(SceneMaterials, BacksAreOtherMaterialsOrTheSameWithOtherValues) {
     const SceneFile file = read_scene_text(
@@ -171,27 +188,26 @@ TEST(SceneMaterials, BacksAreOtherMaterialsOrTheSameWithOtherValues) {
 }
 
 TEST(SceneMaterials, RefusesBacksThatCannotBe) {
-    EXPECT_REFUSAL(
-        material(std::string(kSheet) + "back = { transmittance = 0.3 }"),
-        "s.toml:5: materials.m.back: both sides transmit the same share of the light: transmittance and "
-        "specular_transmittance must be as on the front.");
+    EXPECT_REFUSAL(material(std::string(kSheet) + "back = { transmittance = 0.3 }"),
+                   "s.toml:5: materials.m.back: both sides transmit the same share of the light: only the "
+                   "reflectance may differ.");
     EXPECT_REFUSAL(
         material(std::string(kSheet) + "back = { type = \"black\" }"),
         "s.toml:5: materials.m.back: \"translucent\" and \"black\" cannot be the sides of one surface: of "
-        "the materials that let light through, only translucent ones have a back, which is translucent, "
-        "too.");
+        "the materials that let light through, translucent ones and fabrics have a back, of the same type.");
     EXPECT_REFUSAL(
         material("type = \"glass\"\nior = 1.5\nback = { ior = 1.4 }"),
         "s.toml:4: materials.m.back: \"glass\" and \"glass\" cannot be the sides of one surface: of the "
-        "materials that let light through, only translucent ones have a back, which is translucent, too.");
+        "materials that let light through, translucent ones and fabrics have a back, of the same type.");
     EXPECT_REFUSAL(
         material("type = \"diffuse\"\nreflectance = 0.5\nback = { reflektance = 0.4 }"),
         "s.toml:4: materials.m.back: unknown key \"reflektance\" for type \"diffuse\". Did you mean "
         "\"reflectance\"? Allowed: type, reflectance.");
     EXPECT_REFUSAL(material("type = \"diffuse\"\nreflectance = 0.5\nback = 0.4"),
                    "s.toml:4: materials.m.back: found the number 0.4 where a table is needed.");
-    EXPECT_REFUSAL(material("type = \"diffuse\"\nreflectance = 0.5\nback = { back = { reflectance = 0.4 } }"),
-                   "s.toml:4: materials.m.back: a back has no back of its own.");
+    EXPECT_REFUSAL(
+        material("type = \"diffuse\"\nreflectance = 0.5\nback = { back = { reflectance = 0.4 } }"),
+        "s.toml:4: materials.m.back: unknown key \"back\" for type \"diffuse\". Allowed: type, reflectance.");
     EXPECT_REFUSAL(
         material("type = \"diffuse\"\nreflectance = 0.5\nback = { reflectance = 1.4 }"),
         "s.toml:4: materials.m.back.reflectance: 1.4 is not allowed. Allowed: from 0 to 1 (no surface "

@@ -77,10 +77,10 @@ std::vector<Material> scattering_of_every_model() {
 Rgb sent_on(const Material& material, const Vec3& in) {
     Rgb sum;
     for (const Lobe& lobe : lobes(material, LightSide::outside, Carried::flux))
-        sum += sent_on(lobe.scattering, in);
+        sum += lobe.factor(Carried::flux) * sent_on(lobe.scattering, in);
     const SpecularBranches branches = specular_branches(material, LightSide::outside, in);
     for (const SpecularBranch& branch : branches.list()) sum += branch.share;
-    constexpr int kSteps = 64;
+    constexpr int kSteps = 256;  // with 64, the sums for facets are wrong by 1 %
     for (int j = 0; j < kSteps * kSteps; ++j) {
         const double u1 = (j % kSteps + 0.5) / kSteps;
         if (const auto sample = sample_brdf(material, in, u1, (j / kSteps + 0.5) / kSteps))
@@ -140,7 +140,7 @@ TEST(EveryModel, IsReciprocalAndWeighsItsSamplesByThem) {
 TEST(EveryModel, ReflectsNoMoreThanArrives) {
     RandomPairs random(6);
     for (const Material& material : materials_of_every_model()) {
-        for (int i = 0; i < 20; ++i) {
+        for (int i = 0; i < 5; ++i) {
             const Vec3 in = direction_above(random);
             EXPECT_LE(sent_on(material, in).max(), 1.005) << name_of(material) << " at " << in.z;
         }

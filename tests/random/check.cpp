@@ -148,7 +148,8 @@ std::vector<Setting> settings_of(const RandomScene& random, const Options& optio
     settings.push_back(apart);
     // Patches keep the light that surfaces reflect only, alike on both sides.
     const bool has_no_patches = std::ranges::any_of(random.draft.materials, [](const Part& material) {
-        return material.text("type") == "translucent" || material.text("type") == "frosted" ||
+        const std::string type = material.text("type");
+        return type == "translucent" || type == "fabric" || type == "frosted" ||
                material.find("back") != nullptr;
     });
     if (options.is_long && !has_no_patches) {

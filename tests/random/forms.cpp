@@ -214,7 +214,8 @@ Forms with_black_object(const Draft& draft, Draw&) {
         });
         const auto material =
             std::ranges::find(draft.materials, object.text("material"), &Part::name)->text("type");
-        constexpr std::array<std::string_view, 5> clear{"glass", "pane", "glazing", "frosted", "translucent"};
+        constexpr std::array<std::string_view, 6> clear{"glass",   "pane",        "glazing",
+                                                        "frosted", "translucent", "fabric"};
         if (holds_more || std::ranges::find(clear, material) != clear.end()) continue;
         const Vec3 size = is_box ? object.vector("max") - object.vector("min") : Vec3{};
         const double radius = 0.3 * (is_box ? std::min({size.x, size.y, size.z}) : object.number("radius"));

@@ -51,6 +51,14 @@ std::string add_sheet_material(Draft& draft, Draw& draw) {
             .set("back_reflectance", number(draw.between(0.05, 1 - share)))
             .name;
     }
+    if (draw.chance(0.2)) {
+        const double openness = draw.by_size(0.01, 0.3);
+        return draft.add_material("fabric")
+            .set("openness", number(openness))
+            .set("transmittance", number(openness + draw.between(0, 0.3)))
+            .set("reflectance", colour(draw, 0.1, 0.4))
+            .name;
+    }
     return draft.add_material("translucent")
         .set("reflectance", colour(draw, 0.1, 0.4))
         .set("transmittance", colour(draw, 0.1, 0.4))
@@ -64,7 +72,7 @@ void add_back(Draft& draft, Draw& draw, const std::string& material) {
         return std::ranges::find(draft.materials, name, &Part::name);
     };
     const std::string type = part(material)->text("type");
-    if (type == "translucent") {
+    if (type == "translucent" || type == "fabric") {
         Part back;
         back.set("reflectance", colour(draw, 0.05, 0.4));
         part(material)->set("back", {back.keys});

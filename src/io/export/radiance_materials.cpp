@@ -84,6 +84,13 @@ struct RadianceMaterial {
             warn("Radiance's trans has the same colour for the light that it reflects and transmits.");
         return with_rgb("trans", id, color, {0, 0, trans, tspec});
     }
+    std::string operator()(const materials::Fabric& m) const {
+        const auto& [openness, transmittance, reflectance] = m.parameters();
+        warn(
+            "Radiance's trans lets the same share pass straight at all angles; the holes of a fabric close.");
+        return (*this)(
+            materials::Translucent({reflectance, transmittance + Rgb::grey(-openness), Rgb::grey(openness)}));
+    }
     std::string operator()(const materials::ThinDielectric& m) const {
         return with_rgb("glass", id, m.internal_transmittance, {m.ior});
     }

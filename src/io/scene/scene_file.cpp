@@ -288,20 +288,21 @@ void read_value(const TomlItem& item, const Range& range, materials::SharesByAng
 namespace {
 
 template <typename Model>
-std::vector<std::string_view> material_keys() {
-    std::vector<std::string_view> keys = io::keys_of<materials::ParametersOf<Model>>();
+Keys material_keys() {
+    Keys keys = io::keys_of<materials::ParametersOf<Model>>();
     keys.insert(keys.begin(), "type");
-    keys.emplace_back("back");
     return keys;
 }
 
-/// Each model reads its own parameters.
-Material read_material(TomlTable& table) {
+/// Each model reads its own parameters. `more`: keys that are not those of the model.
+Material read_material(TomlTable& table, const Keys& more) {
     const std::string_view type = table.choose("type", materials::type_names());
     std::optional<Material> read;
     materials::for_each_model([&]<typename Model>() {
         if (type != Model::kType) return;
-        table.expect_keys(material_keys<Model>(), fmt::format("type \"{}\"", type));
+        Keys keys = material_keys<Model>();
+        keys.insert(keys.end(), more.begin(), more.end());
+        table.expect_keys(keys, fmt::format("type \"{}\"", type));
         read = Model(read_fields<materials::ParametersOf<Model>>(table));
     });
     return *read;
@@ -314,9 +315,8 @@ Material read_back(const TomlTable& table, const Material& front) {
     for (const TomlMember& member : table.members()) {
         if (!back.has("type") && member.key != "back" && !back.has(member.key)) members.push_back(member);
     }
-    if (back.has("back")) back.fail("a back has no back of its own.");
     TomlTable whole = back.with(std::move(members));
-    Material read = read_material(whole);
+    Material read = read_material(whole, {});
     if (const auto message = contradiction_of_sides(front, read)) back.fail(*message);
     return read;
 }
@@ -327,6 +327,7 @@ std::vector<TypeKeys> material_types() {
     std::vector<TypeKeys> types;
     materials::for_each_model([&]<typename Model>() {
         types.push_back({Model::kType, material_keys<Model>()});
+        types.back().keys.emplace_back("back");
     });
     return types;
 }
@@ -334,7 +335,7 @@ std::vector<TypeKeys> material_types() {
 void read_materials(const TomlTable& section, const Defaults& defaults, Scene& scene) {
     std::vector<NamedTable> tables = named_tables(section, defaults);
     const std::size_t first = scene.materials.size();
-    for (auto& [name, table] : tables) scene.materials.push_back({name, read_material(table)});
+    for (auto& [name, table] : tables) scene.materials.push_back({name, read_material(table, {"back"})});
     for (std::size_t i = 0; i < tables.size(); ++i) {
         const auto& [name, table] = tables[i];
         if (!table.has("back")) continue;
