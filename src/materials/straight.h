@@ -1,6 +1,7 @@
 // Light that goes on as if there were nothing: through the holes of a fabric, or a thin sheet.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -32,11 +33,12 @@ struct Straight {
     }
     Rgb straight_transmittance(double cosine) const {
         if (openness >= 1) return transmittance;
-        constexpr double right_angle = std::numbers::pi / 2, degree = std::numbers::pi / 180;
-        const double c = std::cos(right_angle * openness);
-        const double cut_off = right_angle - 25 * degree * c, angle = std::acos(std::min(cosine, 1.0));
+        // Angles are shares of a right angle.
+        constexpr double kRightAngle = std::numbers::pi / 2;
+        const double c = std::cos(kRightAngle * openness), cut_off = 1 - 25. / 90 * c;
+        const double angle = std::acos(std::min(cosine, 1.0)) / kRightAngle;
         if (angle >= cut_off) return {};
-        return transmittance * std::pow(std::cos(right_angle * angle / cut_off), 0.6 * std::pow(c, 0.3));
+        return transmittance * std::pow(std::cos(kRightAngle * angle / cut_off), 0.6 * std::pow(c, 0.3));
     }
     Rgb reflectance_bound() const { return transmittance; }
 };

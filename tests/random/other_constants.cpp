@@ -147,6 +147,7 @@ std::span<const OtherConstants> other_constants() {
         {"src/materials/model.h", "kSteps"},
         {"src/materials/facets/rough_interface.cpp", "kLeastLoss kSteps usual for_edges"},
         {"src/materials/shaded_surface.cpp", "kCosineShare"},
+        {"src/materials/straight.h", "kRightAngle"},
         {"src/materials/ward.h", "least"},
         {"src/math/first_root.h", "unknown"},
         {"src/math/lane_functions.h", "pi"},
