@@ -1,8 +1,10 @@
-// Smooth interfaces between two transparent media, and glass, the solid bounded by them.
+// Transparent media, smooth interfaces between two of them, and glass, the solid bounded by such faces.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <compare>
 
 #include "materials/model.h"
 
@@ -24,16 +26,47 @@ double refracted_cosine(double cosine, double ior);
 /// reflection.
 FresnelReflectance fresnel_reflectance(double cosine, double ior);
 
-/// The surface of a clear solid: light is divided by Fresnel's equations for unpolarised light and refracted
-/// by Snell's law. Absorption inside of the solid is not handled.
+/// What fills a solid, or lies around it.
+struct Medium {
+    double ior = 1;
+    std::array<double, kBands> absorption_per_m{};  ///< by Beer's law, per band
+
+    auto operator<=>(const Medium&) const = default;
+    bool is_clear() const { return absorption_per_m == std::array<double, kBands>{}; }
+    /// What is left of light after a way through it.
+    Rgb left_after(double way_m) const {
+        Rgb left;
+        for (std::size_t b = 0; b < kBands; ++b) left[b] = std::exp(-absorption_per_m[b] * way_m);
+        return left;
+    }
+};
+
+inline constexpr Range kColorOfSolid{1e-6, 1, "from 1e-6 to 1 (the share of the light that is left)"};
+inline constexpr Range kDistanceOfColor{1e-6, 1e6, "a length from 1e-6 to 1e6 m"};
+
+/// The surface of a solid that absorbs, but does not scatter: light is divided by Fresnel's equations for
+/// unpolarised light and refracted by Snell's law.
 struct Dielectric {
     double ior = 1.5;  ///< of the solid
-    double outside_ior =
-        1;  ///< of the medium around it: that of another solid that it lies in (scene/glass.h)
+    Rgb color = Rgb::grey(1);
+    double distance_m = 1;
+    Medium outside{};  ///< around it: that of another solid that it lies in (scene/glass.h)
 
     static constexpr std::string_view kType = "glass";
     static constexpr auto fields() {
-        return std::tuple{Field{"ior", &Dielectric::ior, kIor, "refractive index of the solid"}};
+        return std::tuple{Field{"ior", &Dielectric::ior, kIor, "refractive index of the solid"},
+                          Field{"color", &Dielectric::color, kColorOfSolid,
+                                "share of the light that is left after the distance", Presence::optional},
+                          Field{"distance", &Dielectric::distance_m, kDistanceOfColor,
+                                "the way through the solid after which light has the color [m], 1 by default",
+                                Presence::optional}};
+    }
+    Medium inside() const {
+        Medium medium{ior, {}};
+        for (std::size_t b = 0; b < kBands; ++b) {
+            if (color[b] < 1) medium.absorption_per_m[b] = -std::log(color[b]) / distance_m;
+        }
+        return medium;
     }
 
     SpecularBranches branches(LightSide side, const Vec3& in) const;
@@ -53,7 +86,7 @@ inline FresnelReflectance fresnel_reflectance(double cosine, double ior) {
 }
 
 inline SpecularBranches Dielectric::branches(LightSide side, const Vec3& in) const {
-    const double far_over_near = side == LightSide::outside ? ior / outside_ior : outside_ior / ior;
+    const double far_over_near = side == LightSide::outside ? ior / outside.ior : outside.ior / ior;
     const double reflectance = fresnel_reflectance(in.z, far_over_near).unpolarised();
     SpecularBranches branches;
     branches.add({mirrored(in), Rgb::grey(reflectance)});

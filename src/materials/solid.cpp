@@ -1,6 +1,7 @@
 #include "materials/solid.h"
 
-#include "materials/dielectric.h"
+#include <algorithm>
+
 #include "materials/frosted.h"
 #include "materials/thin_dielectric.h"
 
@@ -14,27 +15,40 @@ const Frosted* frosted(const Material& material) {
 
 }  // namespace
 
-std::optional<double> solid_ior(const Material& material) {
-    if (const auto* glass = material.get_if<Dielectric>()) return glass->ior;
-    if (const Frosted* model = frosted(material)) return model->parameters().ior;
+std::optional<Medium> medium_inside(const Material& material) {
+    if (const auto* glass = material.get_if<Dielectric>()) return glass->inside();
+    if (const Frosted* model = frosted(material)) return Medium{model->parameters().ior};
     return std::nullopt;
 }
 
-double outside_ior(const Material& material) {
-    if (const Frosted* model = frosted(material)) return model->parameters().outside_ior;
-    return material.get_if<Dielectric>()->outside_ior;
+Medium medium_outside(const Material& material) {
+    if (const Frosted* model = frosted(material)) return {model->parameters().outside_ior};
+    return material.get_if<Dielectric>()->outside;
 }
 
-Material between_media(const Material& material, double inside_ior, double outside_ior) {
+Material between_media(const Material& material, const Medium& inside, const Medium& outside) {
     if (const Frosted* model = frosted(material))
-        return Frosted({inside_ior, model->parameters().roughness, false, outside_ior});
-    return Dielectric{inside_ior, outside_ior};
+        return Frosted({inside.ior, model->parameters().roughness, false, outside.ior});
+    Dielectric glass{inside.ior};
+    glass.outside = outside;
+    const double most_per_m = std::ranges::max(inside.absorption_per_m);
+    if (most_per_m > 0) {
+        glass.distance_m = 1 / most_per_m;
+        glass.color = inside.left_after(glass.distance_m);
+    }
+    return glass;
+}
+
+Rgb left_on_the_way(const Material& material, LightSide side, double way_m) {
+    const auto* glass = material.get_if<Dielectric>();
+    if (glass == nullptr) return Rgb::grey(1);
+    return (side == LightSide::inside ? glass->inside() : glass->outside).left_after(way_m);
 }
 
 Material sheet_of(const Material& material) {
     if (const Frosted* model = frosted(material))
         return Frosted({model->parameters().ior, model->parameters().roughness, true});
-    return ThinDielectric{*solid_ior(material)};
+    return ThinDielectric{medium_inside(material)->ior};
 }
 
 }  // namespace stilb::materials

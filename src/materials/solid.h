@@ -1,19 +1,23 @@
-// Surfaces that bound a clear solid: glass, smooth or frosted.
+// Surfaces that bound a solid: glass, smooth or frosted.
 #pragma once
 
 #include <optional>
 
+#include "materials/dielectric.h"
 #include "materials/material.h"
 
 namespace stilb::materials {
 
-/// The refractive index of the solid; nothing for surfaces that bound none.
-std::optional<double> solid_ior(const Material& material);
-/// That of the medium outside; only for surfaces that bound a solid, as all functions below.
-double outside_ior(const Material& material);
+/// The medium inside of the solid; nothing for surfaces that bound none.
+std::optional<Medium> medium_inside(const Material& material);
+/// That around it; only for surfaces that bound a solid, as the functions below.
+Medium medium_outside(const Material& material);
 /// The same surface between other media.
-Material between_media(const Material& material, double inside_ior, double outside_ior);
+Material between_media(const Material& material, const Medium& inside, const Medium& outside);
 /// A thin sheet with two such faces.
 Material sheet_of(const Material& material);
+/// What is left of light that meets a surface after a way through the medium on this side: all, unless the
+/// surface is smooth and bounds a solid that absorbs.
+Rgb left_on_the_way(const Material& material, LightSide side, double way_m);
 
 }  // namespace stilb::materials

@@ -22,11 +22,19 @@ double volume_m3(const Bounds& bounds) {
     return size.x * size.y * size.z;
 }
 
+/// On its surface, or near to it.
+Vec3 some_point_of(const Shape& shape) {
+    const Mesh* mesh = geometry::stored_mesh(shape);
+    if (mesh == nullptr) return geometry::bounds_of(shape).middle();
+    const auto [a, b, c] = geometry::corners_of(shape, 0);
+    return (a + b + c) / 3;
+}
+
 /// A body among others.
 struct Place {
     std::optional<std::size_t> around;  ///< the smallest body that contains it
     bool is_cavity = false;
-    double outside = 1, inside = 1;  ///< refractive indices
+    materials::Medium outside, inside;
 };
 
 class Nesting {
@@ -84,12 +92,12 @@ class Nesting {
     /// After the bodies around it.
     void settle(std::size_t i) {
         Place& place = places_[i];
-        place.inside = bodies_[i].ior;
+        place.inside = bodies_[i].medium;
         if (!place.around) return;
         const Place& around = places_[*place.around];
         place.outside = around.inside;
         // A shell that is turned the other way in glass of its own kind is the surface of a cavity.
-        place.is_cavity = !around.is_cavity && bodies_[i].ior == around.inside &&
+        place.is_cavity = !around.is_cavity && bodies_[i].medium == around.inside &&
                           bodies_[i].is_inside_out != bodies_[*place.around].is_inside_out;
         if (place.is_cavity) place.inside = around.outside;
     }
@@ -148,7 +156,7 @@ class GlassSettler {
     void for_each_material(const Part& part, const Replace& replace) {
         Object& object = scene_.objects[index_of(part.object)];
         const auto is_glass = [&](MaterialId id) {
-            return materials::solid_ior(scene_.material(id)).has_value();
+            return materials::medium_inside(scene_.material(id)).has_value();
         };
         const Mesh* mesh = geometry::stored_mesh(object.shape);
         const std::size_t count = mesh ? mesh->triangles.size() : part.triangles->size();
@@ -164,23 +172,25 @@ class GlassSettler {
         object.materials = std::move(materials);
     }
 
-    MaterialId between(MaterialId id, double front, double back) {
+    MaterialId between(MaterialId id, const materials::Medium& front, const materials::Medium& back) {
         const Material& now = scene_.material(id);
-        if (materials::solid_ior(now) == back && materials::outside_ior(now) == front) return id;
+        if (materials::medium_inside(now) == back && materials::medium_outside(now) == front) return id;
         return derived({index_of(id), front, back}, [&] {
             return NamedMaterial{
-                fmt::format("{} (in a medium of ior {:g})", scene_.materials[index_of(id)].name, front),
+                fmt::format("{} (in a medium of ior {:g})", scene_.materials[index_of(id)].name, front.ior),
                 materials::between_media(scene_.material(id), back, front)};
         });
     }
     MaterialId sheet_of(MaterialId id) {
-        return derived({index_of(id), 0, 0}, [&] {
+        return derived({index_of(id), {0, {}}, {0, {}}}, [&] {
             return NamedMaterial{scene_.materials[index_of(id)].name + " (a sheet)",
                                  materials::sheet_of(scene_.material(id))};
         });
     }
+    /// Of a material, between two media.
+    using Derived = std::tuple<std::uint32_t, materials::Medium, materials::Medium>;
     template <typename Make>
-    MaterialId derived(const std::tuple<std::uint32_t, double, double>& key, const Make& make) {
+    MaterialId derived(const Derived& key, const Make& make) {
         const auto [known, is_new] =
             derived_.try_emplace(key, MaterialId{static_cast<std::uint32_t>(scene_.materials.size())});
         if (is_new) scene_.materials.push_back(make());
@@ -195,9 +205,8 @@ class GlassSettler {
                 fmt::format("{} {}: {}", names.size() == 1 ? "object" : "objects", list_of(names), text));
         };
         add(found_.open,
-            "the faces of type \"glass\" close no body, and are computed as thin sheets (type \"pane\"). "
-            "Close the body, or "
-            "give them the type \"pane\".");
+            "the faces of type \"glass\" close no body, and are computed as thin sheets (type \"pane\"), "
+            "which absorb nothing. Close the body, or give them the type \"pane\".");
         add(found_.nearly_closed,
             "a body of type \"glass\" is closed but for a few edges. Close it: light that passes the holes "
             "is "
@@ -210,6 +219,10 @@ class GlassSettler {
             "not all faces of a closed surface are of type \"glass\". The space inside is computed as glass; "
             "if it "
             "is air, give the faces the type \"pane\".");
+        add(in_coloured_glass(),
+            "this lies in glass that has a color. Light that passes between it and other things in there, or "
+            "a "
+            "frosted face, is not absorbed on this way.");
         std::vector<std::string> pairs;
         for (const auto& [i, j] : nesting.cutting()) {
             const std::string &first = scene_.object(found_.bodies[i].object).name,
@@ -223,16 +236,31 @@ class GlassSettler {
         return texts;
     }
 
+    /// The names of objects, other than smooth bodies of glass, that lie in glass that absorbs: light knows
+    /// the media on both sides of smooth glass only.
+    std::vector<std::string> in_coloured_glass() const {
+        std::vector<std::string> names;
+        for (const Object& object : scene_.objects) {
+            if (scene_.material(object.materials[0]).is<Dielectric>()) continue;
+            const Vec3 point = some_point_of(object.shape);
+            if (std::ranges::any_of(found_.bodies, [&](const GlassBody& body) {
+                    return !body.medium.is_clear() && body.contains(point, scene_);
+                }))
+                names.push_back(object.name);
+        }
+        return names;
+    }
+
     Scene& scene_;
     GlassBodies found_;
-    std::map<std::tuple<std::uint32_t, double, double>, MaterialId> derived_;
+    std::map<Derived, MaterialId> derived_;
 };
 
 }  // namespace
 
 std::vector<std::string> settle_glass(Scene& scene) {
     const bool has_glass = std::ranges::any_of(scene.materials, [](const NamedMaterial& named) {
-        return materials::solid_ior(named.material).has_value();
+        return materials::medium_inside(named.material).has_value();
     });
     if (!has_glass) return {};
     return GlassSettler(scene).run();

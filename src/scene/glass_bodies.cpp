@@ -133,11 +133,13 @@ class GlassSearch {
   private:
     void add(ObjectId id) {
         const Object& object = scene_.object(id);
-        const auto is_glass = [&](std::uint32_t triangle) { return glass_ior(scene_, object, triangle) > 0; };
+        const auto is_glass = [&](std::uint32_t triangle) {
+            return glass_medium(scene_, object, triangle).has_value();
+        };
         const Mesh* mesh = geometry::stored_mesh(object.shape);
         if (!mesh) return is_glass(0) ? add_simple(id) : void();
         if (std::ranges::none_of(object.materials, [&](MaterialId material) {
-                return materials::solid_ior(scene_.material(material)).has_value();
+                return materials::medium_inside(scene_.material(material)).has_value();
             }))
             return;
         for (const Component& component : components_of_stored(*mesh)) {
@@ -154,8 +156,8 @@ class GlassSearch {
             const bool is_whole = glass.size() == component.triangles->size();
             if (component.is_closed && of_glass >= kShareOfBody * area) {
                 if (!is_whole) name(found_.mostly_glass, object.name);
-                const double ior = glass_ior(scene_, object, glass.front());
-                add_body({{id, component.triangles}}, {{id, component.turned}}, ior, component.is_inside_out);
+                add_body({{id, component.triangles}}, {{id, component.turned}},
+                         *glass_medium(scene_, object, glass.front()), component.is_inside_out);
             } else {
                 if (component.is_closed) name(found_.partly_glass, object.name);
                 loosen({id, is_whole ? component.triangles : shared(std::move(glass))});
@@ -169,7 +171,7 @@ class GlassSearch {
         if (std::holds_alternative<Rectangle>(shape)) return loosen({id, shared({0, 1})});
         if (std::holds_alternative<Disk>(shape)) return add_sheet({id, shared({0})});
         found_.bodies.push_back(
-            {id, {}, {}, glass_ior(scene_, scene_.object(id), 0), false, bounds_of(shape)});
+            {id, {}, {}, *glass_medium(scene_, scene_.object(id), 0), false, bounds_of(shape)});
     }
 
     const std::vector<Component>& components_of_stored(const Mesh& mesh) {
@@ -180,8 +182,9 @@ class GlassSearch {
 
     void loosen(Part part) { loose_.push_back(std::move(part)); }
 
-    void add_body(std::vector<Part> parts, std::vector<Part> turned, double ior, bool is_inside_out) {
-        GlassBody body{parts.front().object, std::move(parts), std::move(turned), ior, is_inside_out, {}};
+    void add_body(std::vector<Part> parts, std::vector<Part> turned, const materials::Medium& medium,
+                  bool is_inside_out) {
+        GlassBody body{parts.front().object, std::move(parts), std::move(turned), medium, is_inside_out, {}};
         for (const Part& part : body.parts) {
             const Shape& shape = scene_.object(part.object).shape;
             for (const std::uint32_t t : *part.triangles) {
@@ -215,11 +218,11 @@ class GlassSearch {
                 return result;
             };
             std::vector<Part> own = parts_of(component.triangles);
-            const double ior =
-                glass_ior(scene_, scene_.object(own.front().object), own.front().triangles->front());
+            const auto medium =
+                glass_medium(scene_, scene_.object(own.front().object), own.front().triangles->front());
             const bool is_of_one_kind = std::ranges::all_of(own, [&](const Part& part) {
                 return std::ranges::all_of(*part.triangles, [&](std::uint32_t t) {
-                    return glass_ior(scene_, scene_.object(part.object), t) == ior;
+                    return glass_medium(scene_, scene_.object(part.object), t) == medium;
                 });
             });
             // Faces of several media may meet along a line, each between two of them: they stay as they are.
@@ -227,7 +230,7 @@ class GlassSearch {
             if (is_of_one_kind && (component.is_closed || component.is_nearly_closed)) {
                 if (component.is_nearly_closed)
                     name(found_.nearly_closed, scene_.object(own.front().object).name);
-                add_body(std::move(own), parts_of(component.turned), ior, component.is_inside_out);
+                add_body(std::move(own), parts_of(component.turned), *medium, component.is_inside_out);
             } else {
                 for (Part& part : own) add_sheet(std::move(part));
             }
@@ -279,9 +282,10 @@ std::vector<Vec3> points_of(const Shape& shape) {
 
 }  // namespace
 
-double glass_ior(const Scene& scene, const Object& object, std::uint32_t triangle) {
+std::optional<materials::Medium> glass_medium(const Scene& scene, const Object& object,
+                                              std::uint32_t triangle) {
     const MaterialId id = object.materials.size() > 1 ? object.materials[triangle] : object.materials[0];
-    return materials::solid_ior(scene.material(id)).value_or(0);
+    return materials::medium_inside(scene.material(id));
 }
 
 GlassBodies find_glass_bodies(const Scene& scene) { return GlassSearch(scene).run(); }

@@ -4,10 +4,12 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "materials/dielectric.h"
 #include "scene/scene.h"
 
 namespace stilb::scene {
@@ -25,7 +27,7 @@ struct GlassBody {
     ObjectId object{};         ///< the first one
     std::vector<Part> parts;   ///< mostly one
     std::vector<Part> turned;  ///< whose fronts lie on the other side than those of most others
-    double ior = 1;
+    materials::Medium medium;
     bool is_inside_out = false;  ///< the front of its surface, after `turned`, is the inside
     Bounds bounds;
 
@@ -42,8 +44,9 @@ struct GlassBodies {
     std::vector<std::string> mostly_glass, partly_glass, nearly_closed, open;
 };
 
-/// The refractive index of a triangle's glass; 0 of other materials. `triangle`: 0 for shapes without a mesh.
-double glass_ior(const Scene& scene, const Object& object, std::uint32_t triangle);
+/// Inside of a triangle's glass; nothing of other materials. `triangle`: 0 for shapes without a mesh.
+std::optional<materials::Medium> glass_medium(const Scene& scene, const Object& object,
+                                              std::uint32_t triangle);
 
 /// Lamps, and objects that lamps were cut out of, are left out.
 GlassBodies find_glass_bodies(const Scene& scene);

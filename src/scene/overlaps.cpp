@@ -241,8 +241,8 @@ class OverlapSearch {
         shape.mesh = mesh ? mesh : &shape.own;
         const auto look_at = [&](MaterialId material) {
             // Of two bodies of glass each face counts, even if they have one material.
-            const bool is_glass =
-                of_ == OverlapsOf::all_surfaces && materials::solid_ior(scene.material(material)).has_value();
+            const bool is_glass = of_ == OverlapsOf::all_surfaces &&
+                                  materials::medium_inside(scene.material(material)).has_value();
             return look_of(material, is_lamp || is_glass ? index + 1 : 0);
         };
         std::uint32_t look = look_at(object.materials[0]);

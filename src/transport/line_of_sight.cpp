@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "materials/solid.h"
 #include "sensors/place.h"
 #include "transport/lobe_choice.h"
 
@@ -127,21 +128,23 @@ namespace {
 struct Meeting {
     const rays::Hit& hit;
     bool is_pane;
+    materials::LightSide side;
+    Rgb left;  ///< of the light, on its way to the surface
     materials::ShadedSurface surface;
     materials::SpecularBranches branches;
 
     Meeting(const Material& material, const rays::Hit& met, const Vec3& from, Carried carried)
         : hit(met),
           is_pane(passes_straight(material)),
+          side(met.on_front ? materials::LightSide::outside : materials::LightSide::inside),
+          left(materials::left_on_the_way(material, side, met.distance_m)),
           surface(material, met.normal, met.shading_normal),
-          branches(
-              surface.branches(met.on_front ? materials::LightSide::outside : materials::LightSide::inside,
-                               surface.frame().to_local(from), carried)) {}
+          branches(surface.branches(side, surface.frame().to_local(from), carried)) {}
 
     SpecularRay branch(const materials::SpecularBranch& branch, double probability) const {
         const bool reflected = branch.direction.z > 0;
         return {reflected ? hit.lifted : hit.lifted_behind(), surface.frame().to_world(branch.direction),
-                branch.share * (1 / probability), branch.luminance_factor, is_pane && !reflected};
+                left * branch.share * (1 / probability), branch.luminance_factor, is_pane && !reflected};
     }
 };
 

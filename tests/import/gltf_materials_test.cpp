@@ -109,7 +109,7 @@ TEST(GltfMaterials, TransmissionMakesPanesAndSolids) {
         glass, R"("KHR_materials_transmission": {"transmissionFactor": 1}, "KHR_materials_ior": {"ior": 1.6},
                   "KHR_materials_volume": {"thicknessFactor": 0.1})");
     EXPECT_NEAR(material_of<Dielectric>(solid).ior, 1.6, 1e-9);
-    EXPECT_TRUE(warns_of(solid, "the colour of the solid glass is left out"));
+    EXPECT_TRUE(warns_of(solid, "the base colour of the solid glass is left out"));
 }
 
 TEST(GltfMaterials, MetalsTransmitNoLight) {

@@ -100,13 +100,14 @@ TEST(RadianceMaterials, DielectricAndInterfaceAreGlass) {
     const ReadMaterial clear = read_radiance_material("void dielectric m 0 0 5 1 1 1 1.5 0");
     EXPECT_EQ(clear.material.get_if<materials::Dielectric>()->ior, 1.5);
     EXPECT_TRUE(clear.warnings.empty());
-    EXPECT_EQ(read_radiance_material("void dielectric m 0 0 5 .9 1 1 1.5 2").warnings,
-              (std::vector<std::string>{
-                  "dielectric m: Stilb's glass absorbs nothing inside; its transmissivity is left out.",
-                  "dielectric m: its dispersion is left out."}));
-    const auto interface = model_of<materials::Dielectric>("void interface m 0 0 8 1 1 1 1.5 1 1 1 1.33");
+    const ReadMaterial tinted = read_radiance_material("void dielectric m 0 0 5 .9 1 0 1.5 2");
+    EXPECT_EQ(tinted.warnings, (std::vector<std::string>{"dielectric m: its dispersion is left out."}));
+    // What is left after a unit of length, here a metre.
+    expect_bands(tinted.material.get_if<materials::Dielectric>()->inside().left_after(2), {{.81, 1, 1e-12}});
+    const auto interface = model_of<materials::Dielectric>("void interface m 0 0 8 1 1 1 1.5 .9 .8 .7 1.33");
     EXPECT_EQ(interface.ior, 1.5);
-    EXPECT_EQ(interface.outside_ior, 1.33);
+    EXPECT_EQ(interface.outside.ior, 1.33);
+    expect_bands(interface.outside.left_after(1), {{.9, .8, .7}});
 }
 
 TEST(RadianceMaterials, MirrorsMayBeSeenAsAnotherMaterial) {

@@ -114,6 +114,19 @@ TEST_F(LuminaireBody, HidesNothingOfItsOpening) {
     }
 }
 
+/// A scene of another size has the same light: the gap between a small body and its opening is small, too.
+TEST_F(LuminaireBody, AndOpeningAreAsNearAsTheyAreLarge) {
+    const double diagonal = length(Vec3{0.6, 0.4, 0.12});
+    for (const double scale : {1., 0.1 / diagonal * 1.01, 0.1 / diagonal * 0.99, 0.01}) {
+        const SceneFile file =
+            read(fmt::format("file = \"down.ies\"\nopening = [{}, {}]\nposition = [0, 0, 0]\n"
+                             "geometry = {{ file = \"housing.obj\", scale = {} }}",
+                             0.3 * scale, 0.2 * scale, scale));
+        const Bounds opening = bounds_of(object_named(file.scene, "a").shape);
+        EXPECT_NEAR(-0.02 * scale - opening.min.z, std::min(1e-4, 1e-3 * diagonal * scale), 1e-9) << scale;
+    }
+}
+
 TEST_F(LuminaireBody, ShadowsOthersAndIsSeen) {
     const std::string lamps =
         "file = \"down.ies\"\nposition = [0, 0, 2]\ngeometry = \"housing.obj\"\ndimming = 1e-9\n"

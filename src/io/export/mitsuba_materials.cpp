@@ -81,7 +81,8 @@ struct MitsubaMaterial {
                              color("specular_reflectance", m.reflectance));
     }
     std::string operator()(const materials::Dielectric& m) const {
-        return dielectric("dielectric", m.ior, m.outside_ior, "");
+        if (m.color.min() < 1) warn("Mitsuba's glass is clear: it absorbs nothing inside.");
+        return dielectric("dielectric", m.ior, m.outside.ior, "");
     }
     std::string operator()(const materials::Frosted& m) const {
         if (m.parameters().thin) {

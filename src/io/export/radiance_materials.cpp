@@ -67,8 +67,9 @@ struct RadianceMaterial {
         warn(
             "in Radiance no light of lamps passes solid glass straight: the light behind it is missing, "
             "unless the lamps are made of glow.");
-        if (m.outside_ior == 1) return with_rgb("dielectric", id, Rgb::grey(1), {m.ior, 0});
-        return with_rgb("interface", id, Rgb::grey(1), {m.ior, 1, 1, 1, m.outside_ior});
+        const Rgb inside = m.inside().left_after(1), outside = m.outside.left_after(1);  // per metre
+        if (m.outside == materials::Medium{}) return with_rgb("dielectric", id, inside, {m.ior, 0});
+        return with_rgb("interface", id, inside, {m.ior, outside[0], outside[1], outside[2], m.outside.ior});
     }
     std::string operator()(const materials::Translucent& m) const {
         const auto& [reflected, diffuse, straight] = m.parameters();

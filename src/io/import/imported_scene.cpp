@@ -10,6 +10,7 @@
 #include "geometry/mesh_part.h"
 #include "geometry/mesh_topology.h"
 #include "io/text/utf8.h"
+#include "materials/solid.h"
 #include "scene/cut_lamps.h"
 #include "scene/glass.h"
 #include "scene/instances.h"
@@ -204,8 +205,11 @@ void ImportedScene::light_triangles(ObjectId object, MaterialId material,
     if (emission.both_sides) {
         const std::vector<std::uint32_t> open =
             turn_to_shine(mesh, triangles, surrounds_another(scene, object));
-        constexpr double least_m = 1e-4, share = 4e-6;  // more than points are lifted off surfaces
-        const double distance_m = std::max(least_m, share * bounds_of(scene).half_extent());
+        // More than points are lifted off surfaces; and little beside the lamp, however small it is.
+        constexpr double usual_m = 1e-4, of_lamp = 1e-3, of_scene = 4e-6;
+        const Bounds bounds = geometry::bounds_of(mesh);
+        const double distance_m = std::max(std::min(usual_m, of_lamp * length(bounds.max - bounds.min)),
+                                           of_scene * bounds_of(scene).half_extent());
         if (!open.empty()) back = Object{"", back_of(mesh, open, distance_m), {material}};
     }
     const std::string whole = scene.object(object).name;
@@ -263,6 +267,18 @@ void ImportedScene::warn_of_units(double light_scale) {
     }
 }
 
+void ImportedScene::scale_colours_of_glass(double scale) {
+    for (NamedMaterial& named : file.scene.materials) {
+        const auto* glass = named.material.get_if<Dielectric>();
+        if (glass == nullptr || scale == 1) continue;
+        materials::Medium inside = glass->inside(), outside = glass->outside;
+        for (materials::Medium* medium : {&inside, &outside}) {
+            for (double& per_m : medium->absorption_per_m) per_m /= scale;
+        }
+        named.material = materials::between_media(named.material, inside, outside);
+    }
+}
+
 void ImportedScene::settle_faces(const ImportSettings& settings) {
     // Holes matter by their area, not by their outlines.
     constexpr TextureLimits of_holes{20'000, 400'000};
@@ -274,6 +290,7 @@ void ImportedScene::settle_faces(const ImportSettings& settings) {
     if (count == 0)
         throw InputError("the scene has no surface: there is nothing to light.", {file.sources[0].string()});
     for (std::uint32_t i = 0; i < count; ++i) light_faces(ObjectId{i});
+    scale_colours_of_glass(settings.options().scale.value_or(1));
     std::ranges::move(scene::settle_glass(file.scene), std::back_inserter(file.warnings));
     warn_of_units(settings.options().light_scale);
 }

@@ -87,6 +87,8 @@ class ImportedScene {
     void light_triangles(ObjectId object, MaterialId material, std::vector<std::uint32_t> triangles,
                          const Emission& emission);
     void warn_of_units(double light_scale);
+    /// To metres, from the file's unit of length.
+    void scale_colours_of_glass(double scale);
 
     std::map<MaterialId, Emission> emissions_;
     SceneTextures textures_;

@@ -239,10 +239,14 @@ lights::Opening read_opening(const TomlItem& item) {
 /// it reaches beyond the plane of the opening.
 lights::BodyExtent add_body(const TomlTable& table, const TomlItem& geometry, const Luminaire& luminaire,
                             const Context& context) {
-    constexpr double gap_m = 1e-4;  // between the body and the opening
     Object body = read_body(geometry, context.directory, context.file);
     body.name = context.name + std::string(kBodySuffix);
     const geometry::Transform placed{luminaire.c0, luminaire.c90, -luminaire.nadir, luminaire.position};
+    // Between the body and the opening. It grows with the body, so that a scene of another size has the same
+    // light, up to bodies of 10 cm.
+    constexpr double most_m = 1e-4, share = 1e-3;
+    const Bounds bounds = geometry::bounds_of(body.shape);
+    const double gap_m = std::min(most_m, share * length(bounds.max - bounds.min));
     lights::BodyExtent extent;
     for (const Vec3& vertex : std::get<Mesh>(body.shape).vertices) {
         extent.below_m = std::max(extent.below_m, gap_m - vertex.z);

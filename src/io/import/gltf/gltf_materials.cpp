@@ -8,6 +8,7 @@
 #include <set>
 
 #include "io/import/gltf/gltf_surface.h"
+#include "materials/dielectric.h"
 #include "materials/diffuse.h"
 
 namespace stilb::io::gltf {
@@ -180,8 +181,14 @@ class MaterialReader {
         }
         if (const auto* table = find_extension(material.extensions, "KHR_materials_volume")) {
             surface.is_solid = number_in(*table, "thicknessFactor", 0) > 0;
-            if (surface.is_solid && table->Has("attenuationDistance"))
-                warn("absorption inside of the solid (attenuationDistance) is left out.");
+            if (table->Has("attenuationDistance")) {
+                const Range &share = materials::kColorOfSolid, &distance_m = materials::kDistanceOfColor;
+                surface.color_of_solid =
+                    checked(rgb_in(*table, "attenuationColor", Rgb::grey(1)), 1, "attenuationColor");
+                for (double& band : surface.color_of_solid.band) band = std::max(band, share.min);
+                surface.distance_of_color_m = checked(number_in(*table, "attenuationDistance", 1),
+                                                      distance_m.min, distance_m.max, "attenuationDistance");
+            }
         }
         surface.is_unlit = material.extensions.contains("KHR_materials_unlit");
     }

@@ -64,8 +64,10 @@ class SurfaceConversion {
             warn("light passes it without being scattered: its roughness is left out.");
         if (surface.is_solid) {
             const Rgb& base = surface.base;
-            if (base.min() < 0.99) warn("the colour of the solid glass is left out.");
-            return Dielectric{std::clamp(surface.ior, 1.0, 4.0)};
+            if (base.min() < 0.99)
+                warn("the base colour of the solid glass is left out; its attenuationColor is not.");
+            return Dielectric{std::clamp(surface.ior, 1.0, 4.0), surface.color_of_solid,
+                              surface.distance_of_color_m};
         }
         return sheet(reflectance_of_coat(surface), surface.transmission * surface.base);
     }

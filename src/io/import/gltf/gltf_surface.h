@@ -14,7 +14,9 @@ struct MeanSurface {
     Rgb base;
     double alpha = 1, metallic = 1, roughness = 1;
     double transmission = 0, ior = 1.5, specular = 1;
-    bool is_solid = false;  ///< has a volume behind its surface
+    bool is_solid = false;              ///< has a volume behind its surface
+    Rgb color_of_solid = Rgb::grey(1);  ///< as Dielectric::color
+    double distance_of_color_m = 1;
     bool is_unlit = false;
     bool is_blended = false;  ///< alphaMode BLEND
     Rgb emission_cd_m2;

@@ -10,10 +10,10 @@
 #include "io/import/radiance/primitives.h"
 #include "io/text/text.h"
 #include "materials/black.h"
-#include "materials/dielectric.h"
 #include "materials/diffuse.h"
 #include "materials/mirror.h"
 #include "materials/plastic.h"
+#include "materials/solid.h"
 #include "materials/thin_dielectric.h"
 #include "materials/translucent.h"
 #include "materials/ward.h"
@@ -165,13 +165,20 @@ class MaterialReader {
     }
     void read_dielectric() {
         expect_numbers(5);
-        if (color().min() < 1) warn("Stilb's glass absorbs nothing inside; its transmissivity is left out.");
         if (modifier_.numbers[4] != 0) warn("its dispersion is left out.");
-        set_solid(modifier_.numbers[3]);
+        set_solid(medium_at(0), {});
     }
-    void set_solid(double ior, double outside_ior = 1) {
-        optics_.material =
-            materials::Dielectric{within(ior, 1, kLargestIor), within(outside_ior, 1, kLargestIor)};
+    /// Four numbers: what is left of light after a unit of length, and the refractive index.
+    materials::Medium medium_at(std::size_t first) const {
+        const auto left = [&](std::size_t band) {
+            return std::max(share(first + band), materials::kColorOfSolid.min);
+        };
+        return materials::Dielectric{within(modifier_.numbers[first + 3], 1, kLargestIor),
+                                     {{left(0), left(1), left(2)}}}
+            .inside();
+    }
+    void set_solid(const materials::Medium& inside, const materials::Medium& outside) {
+        optics_.material = materials::between_media(materials::Dielectric{}, inside, outside);
         optics_.is_solid = true;
     }
 
@@ -221,7 +228,7 @@ class MaterialReader {
             return warn("this type is not supported; its surfaces are left out.");
         }
         if (type == "interface" && has_numbers(8)) {
-            return set_solid(modifier_.numbers[3], modifier_.numbers[7]);
+            return set_solid(medium_at(0), medium_at(4));
         }
         if ((type == "plastic2" || type == "metal2") && has_numbers(6)) {
             warn(
