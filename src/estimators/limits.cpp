@@ -60,7 +60,7 @@ std::vector<std::string> patch_warnings(const Scene& scene, std::string_view met
 
 void require_diffuse(const Scene& scene, std::string_view method) {
     for (const Object& object : scene.objects) {
-        for (const MaterialId id : object.materials) {
+        for (const MaterialId id : materials_of(scene, object)) {
             const NamedMaterial& used = scene.materials[index_of(id)];
             if (used.material.is<Diffuse>() || used.material.is<Black>()) {
                 continue;
@@ -75,15 +75,8 @@ void require_diffuse(const Scene& scene, std::string_view method) {
 
 const Scene& require_reflection_only(const Scene& scene) {
     for (const Object& object : scene.objects) {
-        for (const MaterialId id : object.materials) {
+        for (const MaterialId id : materials_of(scene, object)) {
             const NamedMaterial& used = scene.materials[index_of(id)];
-            if (used.back) {
-                throw InputError(fmt::format(
-                    "object \"{}\": its material \"{}\" differs on the back, but methods with patches take "
-                    "both "
-                    "sides of a surface as alike. Use method auto, path or local, without first shot.",
-                    object.name, used.name));
-            }
             if (!is_composed(used.material)) continue;
             throw InputError(fmt::format(
                 "object \"{}\": its material \"{}\" is {} and lets light through, but methods with patches "

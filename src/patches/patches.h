@@ -65,6 +65,10 @@ struct Patches {
     }
     /// Unit, away from that side.
     Vec3 normal_of(std::uint32_t side) const;
+    /// `scene`: that of the patches.
+    MaterialId material_of(const Scene& scene, std::uint32_t side) const {
+        return scene.on_side(materials[patch_of(side)], is_front(side));
+    }
 };
 
 /// The longest edge of a sphere or of a disk's rim, over the radius, for any patch size.

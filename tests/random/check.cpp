@@ -146,11 +146,10 @@ std::vector<Setting> settings_of(const RandomScene& random, const Options& optio
     Setting apart{draw.one_of({"auto", "path", "light-paths", "guided"})};
     apart.apart = draw.one_of({Apart::lights, Apart::bounces, Apart::light_scene});
     settings.push_back(apart);
-    // Patches keep the light that surfaces reflect only, alike on both sides.
+    // Patches keep the light that surfaces reflect only.
     const bool has_no_patches = std::ranges::any_of(random.draft.materials, [](const Part& material) {
         const std::string type = material.text("type");
-        return type == "translucent" || type == "fabric" || type == "frosted" ||
-               material.find("back") != nullptr;
+        return type == "translucent" || type == "fabric" || type == "frosted";
     });
     if (options.is_long && !has_no_patches) {
         for (const char* const method : {"ray-bundle", "radiosity", "particles"})

@@ -19,7 +19,7 @@ const double kSqrtPi = std::sqrt(std::numbers::pi);  // 1 / Z_0
 TermLayout::TermLayout(const PatchTransport& transport, int degree, std::vector<std::uint32_t> sides)
     : basis_(degree), sides_(std::move(sides)), first_(2 * transport.patches.count() + 1) {
     for (const std::uint32_t side : sides_) {
-        first_[side + 1] = transport.reflects_alike(transport.patches.patch_of(side)) ? 1 : basis_.count();
+        first_[side + 1] = transport.reflects_alike(side) ? 1 : basis_.count();
     }
     for (std::size_t side = 1; side < first_.size(); ++side) first_[side] += first_[side - 1];
 }
@@ -28,7 +28,7 @@ std::vector<std::uint32_t> reflecting_sides(const PatchTransport& transport) {
     std::vector<std::uint32_t> sides;
     const auto count = static_cast<std::uint32_t>(2 * transport.patches.count());
     for (std::uint32_t side = 0; side < count; ++side) {
-        const Material& material = transport.material_of(transport.patches.patch_of(side));
+        const Material& material = transport.material_of(side);
         if (reflectance_bound(material).max() > 0 && !is_specular(material)) sides.push_back(side);
     }
     return sides;
@@ -81,15 +81,14 @@ void TermSums::add(std::span<const BundleIteration* const> walks, std::uint32_t 
 
 std::vector<FloatRgb> reflection_factors(const PatchTransport& transport, const TermLayout& layout,
                                          std::uint32_t side, const Vec3& out) {
-    const std::uint32_t patch = transport.patches.patch_of(side);
     std::vector<FloatRgb> factors(layout.count_of(side));
     if (factors.empty()) return factors;
-    if (transport.reflects_alike(patch)) {
-        factors[0] = to_float_rgb(to_rgb(transport.constant_brdf[patch]) * kSqrtPi);
+    if (transport.reflects_alike(side)) {
+        factors[0] = to_float_rgb(to_rgb(transport.constant_brdf[side]) * kSqrtPi);
         return factors;
     }
     const Vec3 local_out = Frame::of_surface(transport.patches.normal_of(side)).to_local(out);
-    integrate_factors(transport.material_of(patch), layout.basis(), local_out, 256, factors);
+    integrate_factors(transport.material_of(side), layout.basis(), local_out, 256, factors);
     return factors;
 }
 

@@ -151,16 +151,16 @@ void VisibleSides::for_each(const Visit& visit) const {
     const patches::Patches& patches = transport_.patches;
     for (std::uint32_t patch = 0; patch < patches.count(); ++patch) {
         const Vec3 normal = patches.normal_of(patch);
-        const std::uint32_t back = patches.other_side(patch);
-        if (transport_.reflects_alike(patch)) {
-            visit(patch, normal);
-            visit(back, -normal);
-            continue;
-        }
         const Vec3 to_camera = normalized(camera_ - patches.middle(patch));
         const bool front_is_seen = dot(to_camera, normal) > 0;
-        visit(front_is_seen ? patch : back, to_camera);
-        if (are_backs_seen_) visit(front_is_seen ? back : patch, front_is_seen ? -normal : normal);
+        for (const std::uint32_t side : {patch, patches.other_side(patch)}) {
+            const bool is_seen = front_is_seen == (side == patch);
+            if (is_seen && !transport_.reflects_alike(side)) {
+                visit(side, to_camera);
+            } else if (are_backs_seen_ || transport_.reflects_alike(side)) {
+                visit(side, side == patch ? normal : -normal);
+            }
+        }
     }
 }
 

@@ -31,35 +31,39 @@ PatchTransport::PatchTransport(const Scene& all, const rays::RayCaster& rays, co
 }
 
 void PatchTransport::describe_patches() {
-    const std::size_t count = patches.count();
-    glossy_number.assign(count, kConstant);
-    constant_brdf.resize(count);
+    const auto count = static_cast<std::uint32_t>(patches.count());
+    glossy_number.assign(2 * count, kConstant);
+    constant_brdf.resize(2 * count);
     first_reflection.resize(2 * count);
     emission.resize(count);
-    for (std::uint32_t patch = 0; patch < count; ++patch) add_reflection(patch);
+    for (std::uint32_t side = 0; side < 2 * count; ++side) add_reflection(side);
+    const auto reflectance_of = [&](std::uint32_t side) {
+        const Material& material = material_of(side);
+        return is_specular(material) ? 0 : reflectance_bound(material).luminance();
+    };
+    for (std::uint32_t patch = 0; patch < count; ++patch) {
+        const double of_both = reflectance_of(patch) + reflectance_of(patches.other_side(patch));
+        mean_reflectance += double{patches.areas_m2[patch]} * of_both / 2;
+    }
     for (std::size_t light = 0; light < scene.lights.size(); ++light) add_emission(light);
     const double all_m2 = area_m2(patches);
     mean_reflectance /= all_m2;
     spacing_m = std::sqrt(all_m2 / static_cast<double>(count) / kRaysPerPatch);
 }
 
-void PatchTransport::add_reflection(std::uint32_t patch) {
-    const Material& material = material_of(patch);
-    if (is_specular(material)) return;
-    mean_reflectance += double{patches.areas_m2[patch]} * reflectance_bound(material).luminance();
-    if (material.is<Black>()) return;
+void PatchTransport::add_reflection(std::uint32_t side) {
+    const Material& material = material_of(side);
+    if (is_specular(material) || material.is<Black>()) return;
     const auto* diffuse = material.get_if<Diffuse>();
     if (!diffuse) {
-        glossy_number[patch] = static_cast<std::uint32_t>(glossy_patches.size());
-        glossy_patches.push_back(patch);
+        glossy_number[side] = static_cast<std::uint32_t>(glossy_sides.size());
+        glossy_sides.push_back(side);
         return;
     }
-    constant_brdf[patch] = to_float_rgb(diffuse->reflectance * std::numbers::inv_pi);
-    for (const std::uint32_t side : {patch, patches.other_side(patch)}) {
-        if (first_shot.needs_position(side)) continue;
-        first_reflection[side] =
-            to_float_rgb(first_shot.reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
-    }
+    constant_brdf[side] = to_float_rgb(diffuse->reflectance * std::numbers::inv_pi);
+    if (first_shot.needs_position(side)) return;
+    first_reflection[side] = to_float_rgb(
+        first_shot.reflected(side, patches.middle(patches.patch_of(side)), {}, patches.normal_of(side)));
 }
 
 void PatchTransport::add_emission(std::size_t light) {
@@ -72,10 +76,9 @@ void PatchTransport::add_emission(std::size_t light) {
 }
 
 Rgb PatchTransport::first_reflected(std::uint32_t side, const Vec3& out) const {
-    const std::uint32_t patch = patches.patch_of(side);
-    if (reflects_alike(patch)) return to_rgb(first_reflection[side]);
-    return first_shot.needs_position(side) ? Rgb{}
-                                           : first_shot.reflected(side, patches.middle(patch), {}, out);
+    if (reflects_alike(side)) return to_rgb(first_reflection[side]);
+    if (first_shot.needs_position(side)) return {};
+    return first_shot.reflected(side, patches.middle(patches.patch_of(side)), {}, out);
 }
 
 std::vector<std::optional<PatchLocation>> find_patch_locations(const patches::PatchCaster& caster,

@@ -38,14 +38,14 @@ struct PatchTransport : FirstShotPatches {
     PatchTransport(const Scene& scene, const rays::RayCaster& caster, const PatchOptions& options,
                    const Monitor& monitor = Monitor::none());
 
-    const Material& material_of(std::uint32_t patch) const {
-        return scene.material(patches.materials[patch]);
+    const Material& material_of(std::uint32_t side) const {
+        return scene.material(patches.material_of(scene, side));
     }
     std::uint32_t side_towards(std::uint32_t patch, const Vec3& direction) const {
         const bool front = dot(Vec3(patches.normals[patch]), direction) > 0;
         return front ? patch : patches.other_side(patch);
     }
-    bool reflects_alike(std::uint32_t patch) const { return glossy_number[patch] == kConstant; }
+    bool reflects_alike(std::uint32_t side) const { return glossy_number[side] == kConstant; }
 
     /// The light of first shot that a side reflects, as a mean over the patch; nothing where it depends on
     /// the position.
@@ -62,10 +62,10 @@ struct PatchTransport : FirstShotPatches {
     double spacing_m = 0;  ///< of bundles' rays
 
     static constexpr std::uint32_t kConstant = ~0u;
-    /// Per patch: its index in `glossy_patches`, or kConstant for reflection that is equal in all directions.
+    /// Per side: its index in `glossy_sides`, or kConstant for reflection that is equal in all directions.
     std::vector<std::uint32_t> glossy_number;
-    std::vector<std::uint32_t> glossy_patches;
-    std::vector<FloatRgb> constant_brdf;  ///< per patch [1/sr]; 0 where it depends on direction
+    std::vector<std::uint32_t> glossy_sides;
+    std::vector<FloatRgb> constant_brdf;  ///< per side [1/sr]; 0 where it depends on direction
     std::vector<FloatRgb>
         first_reflection;            ///< per side [cd/m2]; 0 where it depends on direction or position
     std::vector<FloatRgb> emission;  ///< per patch, of its front; 0 where first shot replaces it
@@ -73,7 +73,7 @@ struct PatchTransport : FirstShotPatches {
 
   private:
     void describe_patches();
-    void add_reflection(std::uint32_t patch);
+    void add_reflection(std::uint32_t side);
     void add_emission(std::size_t light);
 };
 

@@ -156,7 +156,7 @@ class DisplayBuilder {
     std::tuple<std::uint32_t, bool, std::uint32_t> part_of(const SurfaceTriangle& triangle) const {
         const std::uint32_t patch = scene_.patches.patch_of(triangle.side);
         return {index_of(scene_.patches.object_of(patch)), !scene_.patches.is_front(triangle.side),
-                index_of(scene_.patches.materials[patch])};
+                index_of(scene_.patches.material_of(scene_.scene, triangle.side))};
     }
 
     DisplayMesh assembled(const std::vector<float>& interpolation_errors) {

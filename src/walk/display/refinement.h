@@ -36,7 +36,7 @@ struct RefinementScene {
     ObjectId object_of(std::uint32_t side) const { return patches.object_of(patches.patch_of(side)); }
     const Shape& shape_of(std::uint32_t side) const { return scene.object(object_of(side)).shape; }
     bool is_specular(std::uint32_t side) const {
-        return materials::is_specular(scene.material(patches.materials[patches.patch_of(side)]));
+        return materials::is_specular(scene.material(patches.material_of(scene, side)));
     }
 };
 

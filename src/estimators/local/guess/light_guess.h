@@ -66,8 +66,7 @@ class LightGuess {
     /// The sides that light reaches and that reflect it, ascending.
     const std::vector<std::uint32_t>& lit_sides() const { return lit_sides_; }
     const materials::SplitMaterial& material(std::uint32_t side) const {
-        const MaterialId front = patches().materials[patches().patch_of(side)];
-        return material(scene_.on_side(front, patches().is_front(side)));
+        return material(patches().material_of(scene_, side));
     }
     const materials::SplitMaterial& material(MaterialId id) const { return materials_[index_of(id)]; }
     /// Whether the surface that a ray has met is traced.

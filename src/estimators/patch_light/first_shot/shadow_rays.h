@@ -22,7 +22,7 @@ namespace stilb::estimators {
 // Sides of patches as reflecting surfaces.
 
 inline const Material& material_of(const Scene& scene, const patches::Patches& patches, std::uint32_t side) {
-    return scene.material(patches.materials[patches.patch_of(side)]);
+    return scene.material(patches.material_of(scene, side));
 }
 
 /// The local frame of a side's material, in world coordinates.

@@ -108,8 +108,8 @@ DiffuseFirstShot::DiffuseFirstShot(const Scene& scene, const patches::Patches& p
         rest_.push_back(parts.gloss.value_or(Black{}));
     }
     for (std::uint32_t side = 0; side < radiance_cd_m2_.size(); ++side) {
-        const auto material = index_of(patches.materials[patches.patch_of(side)]);
-        radiance_cd_m2_[side] = in_floats(diffuse[material] * incoming.illuminance_lx(side));
+        const MaterialId material = patches.material_of(scene, side);
+        radiance_cd_m2_[side] = in_floats(diffuse[index_of(material)] * incoming.illuminance_lx(side));
     }
 }
 
@@ -119,7 +119,7 @@ void DiffuseFirstShot::add_reflected(std::uint32_t side, const Vec3& position, m
     for (std::size_t i = 0; i < outs.size(); ++i) {
         if (dot(outs[i], normal) > 0) sums[i] += to_spectrum(radiance_cd_m2_[side]);
     }
-    const Material& rest = rest_[index_of(patches_.materials[patches_.patch_of(side)])];
+    const Material& rest = rest_[index_of(patches_.material_of(scene_, side))];
     rays_.add_reflected_by(rest, side, position, key, outs, sums);
 }
 

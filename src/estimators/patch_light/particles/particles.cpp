@@ -62,7 +62,7 @@ void IlluminationMap::walk(std::vector<Particle>& particles) {
 bool IlluminationMap::land(Particle& particle, std::uint32_t side, const math::Barycentric& barycentric) {
     add_to(flux_lm_[side], particle.flux_lm);
     const patches::Patches& patches = transport_.patches;
-    const Rgb reflectance = std::numbers::pi * to_rgb(transport_.constant_brdf[patches.patch_of(side)]);
+    const Rgb reflectance = std::numbers::pi * to_rgb(transport_.constant_brdf[side]);
     const double survival = transport::survival_probability(particle.flux_lm, reflectance);
     if (particle.stream.next() >= survival) return false;
     const patches::Viewpoint viewpoint = viewpoint_on(patches, side, barycentric);
@@ -80,7 +80,7 @@ std::vector<FloatRgb> IlluminationMap::reflected_cd_m2() const {
         const std::uint32_t patch = patches.patch_of(side);
         const double per_m2 = 1 / (double{patches.areas_m2[patch]} * static_cast<double>(particles_));
         reflected[side] =
-            to_float_rgb(to_rgb(transport_.constant_brdf[patch]) * to_rgb(flux_lm_[side]) * per_m2);
+            to_float_rgb(to_rgb(transport_.constant_brdf[side]) * to_rgb(flux_lm_[side]) * per_m2);
     }
     return reflected;
 }

@@ -107,7 +107,7 @@ class Shooting {
         add_to(unshot_[from], -1 * sent_cd_m2);
         const Rgb sent_lm = std::numbers::pi * area_m2(from) * sent_cd_m2;
         for (const auto& [to, share] : factors) {
-            const FloatRgb& brdf = transport_.constant_brdf[transport_.patches.patch_of(to)];
+            const FloatRgb& brdf = transport_.constant_brdf[to];
             const Rgb reflected = to_rgb(brdf) * sent_lm * (double{share} / area_m2(to));
             add_to(reflected_[to], reflected);
             add_to(unshot_[to], reflected);

@@ -78,7 +78,7 @@ BundleIteration::BundleIteration(const PatchTransport& transport, std::vector<Bu
       radiance_(2 * transport.patches.count() * groups()),
       received_(radiance_.size()),
       receiving_(radiance_.size()),
-      glossy_received_(2 * axes_ * transport.glossy_patches.size() * groups()),
+      glossy_received_(axes_ * transport.glossy_sides.size() * groups()),
       glossy_receiving_(glossy_received_.size()) {}
 
 void BundleIteration::step() {
@@ -135,34 +135,31 @@ void BundleIteration::radiate_constant() {
     const auto weight = static_cast<float>(weight_);
     const std::size_t patches = transport_.patches.count();
     for (std::uint32_t side = 0; side < 2 * patches; ++side) {
-        const bool is_front = side < patches;
-        const std::size_t patch = is_front ? side : side - patches;
         for (std::size_t g = 0; g < groups(); ++g) {
             const BundleSource& source = sources_[g];
             const FloatRgb& received = received_[index(side, g)];
             FloatRgb& radiance = radiance_[index(side, g)];
             for (std::size_t b = 0; b < kBands; ++b) {
                 radiance[b] = source.first_reflection[side][b] +
-                              weight * transport_.constant_brdf[patch][b] * received[b];
-                if (is_front) radiance[b] += source.emission[patch][b];
+                              weight * transport_.constant_brdf[side][b] * received[b];
+                if (side < patches) radiance[b] += source.emission[side][b];
             }
         }
     }
 }
 
 void BundleIteration::radiate_glossy(const Vec3& axis) {
-    for (std::uint32_t patch : transport_.glossy_patches) {
-        const Vec3 middle = transport_.patches.middle(patch);
-        for (const Vec3& out : {axis, -axis}) {
-            const std::uint32_t side = transport_.side_towards(patch, out);
-            for (std::size_t g = 0; g < groups(); ++g) {
-                const BundleSource& source = sources_[g];
-                Rgb luminance = reflected_of(g, side, transport_.glossy_number[patch], out);
-                if (!source.first_shot->needs_position(side))
-                    luminance += source.first_shot->reflected(side, middle, {}, out);
-                if (side == patch) luminance += to_rgb(source.emission[patch]);
-                radiance_[index(side, g)] = to_float_rgb(luminance);
-            }
+    const patches::Patches& patches = transport_.patches;
+    for (std::uint32_t number = 0; number < transport_.glossy_sides.size(); ++number) {
+        const std::uint32_t side = transport_.glossy_sides[number], patch = patches.patch_of(side);
+        const Vec3 out = dot(patches.normal_of(side), axis) > 0 ? axis : -axis;
+        for (std::size_t g = 0; g < groups(); ++g) {
+            const BundleSource& source = sources_[g];
+            Rgb luminance = reflected_of(g, side, number, out);
+            if (!source.first_shot->needs_position(side))
+                luminance += source.first_shot->reflected(side, patches.middle(patch), {}, out);
+            if (side == patch) luminance += to_rgb(source.emission[patch]);
+            radiance_[index(side, g)] = to_float_rgb(luminance);
         }
     }
 }
@@ -208,25 +205,23 @@ void BundleIteration::transfer(std::size_t axis, const patches::Bundle& bundle) 
 void BundleIteration::receive(std::size_t group, std::uint32_t side, std::size_t axis,
                               const FloatRgb& luminance, double ray_area_m2) {
     const std::uint32_t patch = transport_.patches.patch_of(side);
-    const std::uint32_t glossy = transport_.glossy_number[patch];
+    const std::uint32_t glossy = transport_.glossy_number[side];
     FloatRgb& sum = glossy == PatchTransport::kConstant
                         ? receiving_[index(side, group)]
-                        : glossy_receiving_[glossy_index(side, glossy, axis) + group];
+                        : glossy_receiving_[glossy_index(glossy, axis) + group];
     const auto weight = static_cast<float>(ray_area_m2 / double{transport_.patches.areas_m2[patch]});
     for (std::size_t b = 0; b < kBands; ++b) sum[b] += weight * luminance[b];
 }
 
-std::size_t BundleIteration::glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const {
-    const std::size_t back = transport_.patches.is_front(side) ? 0 : 1;
-    return ((2 * std::size_t{number} + back) * axes_ + axis) * groups();
+std::size_t BundleIteration::glossy_index(std::uint32_t number, std::size_t axis) const {
+    return (std::size_t{number} * axes_ + axis) * groups();
 }
 
 Rgb BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
-    const std::uint32_t patch = transport_.patches.patch_of(side);
-    const std::uint32_t glossy = transport_.glossy_number[patch];
+    const std::uint32_t glossy = transport_.glossy_number[side];
     Rgb luminance;
     for (std::size_t g = 0; g < groups(); ++g) {
-        luminance += glossy == PatchTransport::kConstant ? to_rgb(transport_.constant_brdf[patch]) *
+        luminance += glossy == PatchTransport::kConstant ? to_rgb(transport_.constant_brdf[side]) *
                                                                to_rgb(received_[index(side, g)]) * weight_
                                                          : reflected_of(g, side, glossy, out);
     }
@@ -235,13 +230,13 @@ Rgb BundleIteration::reflected(std::uint32_t side, const Vec3& out) const {
 
 Rgb BundleIteration::reflected_of(std::size_t group, std::uint32_t side, std::uint32_t glossy,
                                   const Vec3& out) const {
-    const Material& material = transport_.material_of(transport_.patches.patch_of(side));
+    const Material& material = transport_.material_of(side);
     const Vec3 normal = transport_.patches.normal_of(side);
     const Frame frame = Frame::of_surface(normal);
     const Vec3 local_out = frame.to_local(out);
     Rgb luminance;
     for (std::size_t axis = 0; axis < axes_; ++axis) {
-        const Rgb received = to_rgb(glossy_received_[glossy_index(side, glossy, axis) + group]);
+        const Rgb received = to_rgb(glossy_received_[glossy_index(glossy, axis) + group]);
         if (!(received.max() > 0)) continue;
         const Vec3& along = axis_of(received_along_, axis);
         const Vec3 in = dot(along, normal) < 0 ? -along : along;

@@ -84,7 +84,7 @@ class BundleIteration final : public PatchLight {
     }
     std::size_t index(std::uint32_t side, std::size_t group) const { return side * sources_.size() + group; }
     /// The index of the first group's value.
-    std::size_t glossy_index(std::uint32_t side, std::uint32_t number, std::size_t axis) const;
+    std::size_t glossy_index(std::uint32_t number, std::size_t axis) const;
 
     const PatchTransport& transport_;
     std::vector<BundleSource> sources_;
@@ -104,7 +104,7 @@ class BundleIteration final : public PatchLight {
 
 template <typename Visit>
 void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) const {
-    const std::uint32_t glossy = transport_.glossy_number[transport_.patches.patch_of(side)];
+    const std::uint32_t glossy = transport_.glossy_number[side];
     const Vec3 normal = transport_.patches.normal_of(side);
     std::array<Rgb, scene::kMostLightGroups> illuminances_lx;
     const std::span<const Rgb> of_groups(illuminances_lx.data(), groups());
@@ -121,7 +121,7 @@ void BundleIteration::for_each_arrival(std::uint32_t side, const Visit& visit) c
         return visit(normal, of_groups);
     }
     for (std::size_t axis = 0; axis < axes_; ++axis) {
-        if (!read(glossy_received_.data() + glossy_index(side, glossy, axis))) continue;
+        if (!read(glossy_received_.data() + glossy_index(glossy, axis))) continue;
         const Vec3& along = axis_of(received_along_, axis);
         visit(dot(along, normal) < 0 ? -along : along, of_groups);
     }

@@ -73,9 +73,8 @@ patches::FinePatches patches_near_contacts(const PatchTransport& coarse, const S
     const double dark_lx = dark_share * mean_lx(coarse, light);
     const auto longest_edge_m = [&](std::uint32_t patch, const std::array<Vec3, 3>& corners) {
         double limit_m = coarse.size_m;
-        if (reflects_nothing(coarse.material_of(patch))) return limit_m;
         for (const std::uint32_t side : {patch, coarse.patches.other_side(patch)}) {
-            if (!light.is_lit[side]) continue;
+            if (!light.is_lit[side] || reflects_nothing(coarse.material_of(side))) continue;
             const double times_longer = std::max(1., dark_lx / light.lx[side]);
             limit_m = std::min(limit_m, times_longer * distance_around_m(coarse, side, corners));
         }

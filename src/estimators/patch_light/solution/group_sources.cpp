@@ -24,10 +24,9 @@ void GroupSources::add(std::uint32_t number, const LightGroups& groups) {
     group.first_shot = first_shot_of(number, groups);
     group.first_reflection.resize(2 * patches.count());
     for (std::uint32_t side = 0; side < group.first_reflection.size(); ++side) {
-        const std::uint32_t patch = patches.patch_of(side);
-        if (!transport_.reflects_alike(patch)) continue;
-        group.first_reflection[side] = to_float_rgb(
-            group.first_shot->reflected(side, patches.middle(patch), {}, patches.normal_of(side)));
+        if (!transport_.reflects_alike(side)) continue;
+        group.first_reflection[side] = to_float_rgb(group.first_shot->reflected(
+            side, patches.middle(patches.patch_of(side)), {}, patches.normal_of(side)));
     }
     group.emission.resize(patches.count());
     for (std::size_t light = 0; light < groups.of_light.size(); ++light) {

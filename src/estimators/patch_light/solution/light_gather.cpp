@@ -51,11 +51,13 @@ std::vector<std::uint32_t> reflecting_vertices(const PatchTransport& coarse, con
     const patches::Patches& patches = fine.patches;
     std::vector<bool> reflects(2 * patches.vertices.size());
     for (std::uint32_t p = 0; p < patches.count(); ++p) {
-        if (reflects_nothing(coarse.material_of(fine.parents[p]))) continue;
+        const std::uint32_t front = fine.parents[p], back = coarse.patches.other_side(front);
+        const auto is_bright = [&](std::uint32_t side) {
+            return is_lit[side] && !reflects_nothing(coarse.material_of(side));
+        };
         for (const std::uint32_t corner : patches.corners[p]) {
-            if (is_lit[fine.parents[p]]) reflects[corner] = true;
-            if (is_lit[coarse.patches.other_side(fine.parents[p])])
-                reflects[corner + patches.vertices.size()] = true;
+            if (is_bright(front)) reflects[corner] = true;
+            if (is_bright(back)) reflects[corner + patches.vertices.size()] = true;
         }
     }
     std::vector<std::uint32_t> sides;
@@ -178,8 +180,9 @@ bool LightGather::is_covered(const SurfacePoint& origin, const std::vector<bool>
     return std::ranges::all_of(std::span(hits.sides).first(kRaysToCover), [&](std::uint32_t side) {
         if (side == patches::kNoSide) return false;
         const std::uint32_t parent = fine_.parents[fine_.patches.patch_of(side)];
-        if (is_specular(coarse_.material_of(parent))) return false;
-        return !is_lit[fine_.patches.is_front(side) ? parent : coarse_.patches.other_side(parent)];
+        const std::uint32_t of_coarse =
+            fine_.patches.is_front(side) ? parent : coarse_.patches.other_side(parent);
+        return !is_lit[of_coarse] && !is_specular(coarse_.material_of(of_coarse));
     });
 }
 
@@ -376,7 +379,7 @@ void LightGather::add_of_walk(const GatheredRay& ray, std::uint32_t coarse_side)
     const Frame frame = frame_of(coarse_.patches, coarse_side);
     const Vec3 out = frame.to_local(ray.path.outgoing);
     // Not the material that the ray met: where two objects lie in one plane, that may be the other one's.
-    const MaterialId material = coarse_.patches.materials[coarse_.patches.patch_of(coarse_side)];
+    const MaterialId material = coarse_.patches.material_of(coarse_.scene, coarse_side);
     interpolate_factors(tables_[index_of(material)], {out.x, out.y, std::abs(out.z)}, used);
     const double scale = 1 / static_cast<double>(walks_.steps());
     for (std::size_t g = 0; g < ray.once.size(); ++g)

@@ -24,7 +24,7 @@ LightVertices::LightVertices(const Scene& scene, const patches::Patches& patches
         numbers_[lit_[i]] = i;
         const Vec3 normal = normalized(normals[vertex(i)]);
         frames_.push_back(Frame::of_surface(is_front(i) ? normal : -normal));
-        materials_.push_back(materials[vertex(i)]);
+        materials_.push_back(scene.on_side(materials[vertex(i)], is_front(i)));
         const bool is_alike = reflects_alike(scene.material(materials_.back()));
         first_terms_.push_back(first_terms_.back() + (is_alike ? 1 : all_terms));
     }

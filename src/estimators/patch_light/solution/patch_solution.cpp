@@ -91,7 +91,8 @@ std::size_t terms_of(const PatchSolution& solution, const Scene& scene) {
     }
     std::size_t terms = 0;
     for (const std::uint32_t side : solution.lit_vertices) {
-        const MaterialId material = materials[side % materials.size()];
+        const MaterialId material =
+            scene.on_side(materials[side % materials.size()], side < materials.size());
         terms += reflects_alike(scene.material(material)) ? 1 : math::ZernikeBasis(solution.degree).count();
     }
     return terms;
