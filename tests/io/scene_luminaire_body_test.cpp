@@ -122,7 +122,8 @@ TEST_F(LuminaireBody, AndOpeningAreAsNearAsTheyAreLarge) {
             read(fmt::format("file = \"down.ies\"\nopening = [{}, {}]\nposition = [0, 0, 0]\n"
                              "geometry = {{ file = \"housing.obj\", scale = {} }}",
                              0.3 * scale, 0.2 * scale, scale));
-        const Bounds opening = bounds_of(object_named(file.scene, "a").shape);
+        const auto& light = std::get<LuminousOpening>(file.scene.lights[0].source);
+        const Bounds opening = bounds_of(file.scene.object(light.object).shape);
         EXPECT_NEAR(-0.02 * scale - opening.min.z, std::min(1e-4, 1e-3 * diagonal * scale), 1e-9) << scale;
     }
 }
