@@ -87,6 +87,13 @@ Glazing::Glazing(const Parameters& parameters) : parameters_(parameters) {
         pane_ = pane_of(parameters.visible_transmittance.rows[0].share);
 }
 
+ThinDielectric Glazing::uncoated() const {
+    if (pane_) return *pane_;
+    Rgb transmittance = straight_transmittance(1);
+    for (double& band : transmittance.band) band = std::min(band, kVisibleTransmittance.max);
+    return pane_of(transmittance);
+}
+
 Rgb Glazing::straight_transmittance(double cosine) const {
     if (pane_) return pane_->straight_transmittance(cosine);
     const SharesByAngle& shares = parameters_.transmittance;

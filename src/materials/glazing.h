@@ -52,6 +52,9 @@ class Glazing {
         branches.add({-in, straight_transmittance(in.z)});
         return branches;
     }
+    /// An uncoated pane that transmits as much along the normal, or as much as such a pane can: what
+    /// visible_transmittance stands for.
+    ThinDielectric uncoated() const;
     Rgb straight_transmittance(double cosine) const;
     Rgb reflectance(LightSide side, double cosine) const;
     Rgb reflectance_bound() const { return Rgb::grey(1); }

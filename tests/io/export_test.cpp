@@ -130,6 +130,25 @@ TEST_F(Export, MaterialsWithABackAreTwo) {
     EXPECT_TRUE(contains(radiance, "material_sides_sides polygon wall"));
 }
 
+TEST_F(Export, GlazingIsAPaneThatTransmitsAsMuch) {
+    const auto scene = [](const std::string& keys) {
+        return std::string(kExportedRoom) + "[materials.window]\ntype = \"glazing\"\n" + keys +
+               "\n[objects.window]\nshape = \"rectangle\"\ncorner = [2, 0, 0]\nedge_u = [0, 1, 0]\n"
+               "edge_v = [0, 0, 1]\nmaterial = \"window\"\n";
+    };
+    const auto warnings = [&](const std::string& keys) {
+        const auto report = export_scene(read_scene_text(scene(keys)), ExportFormat::radiance, folder_);
+        return std::ranges::count_if(
+            report.warnings, [](const std::string& text) { return text.starts_with("material window"); });
+    };
+    EXPECT_EQ(warnings("visible_transmittance = 0.7"), 0);
+    const std::string clear = content("scene.rad");
+    // 0.7 along the normal is Radiance's transmissivity 0.763.
+    EXPECT_TRUE(contains(clear, "void glass material_window\n0\n0\n4 0.763")) << clear;
+    EXPECT_EQ(warnings("transmittance = 0.7\nreflectance = 0.2"), 1);
+    EXPECT_EQ(content("scene.rad"), clear) << "the same pane";
+}
+
 TEST_F(Export, PointsHavePositionAndNormal) {
     write(ExportFormat::radiance);
     EXPECT_EQ(content("desk.pts"), "0.5 0.5 0.75 0 0 1\n1.5 0.5 0.75 0 0 1\n");

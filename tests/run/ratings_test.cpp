@@ -6,6 +6,7 @@
 #include "run/readings/sensor_estimates.h"
 #include "run/run.h"
 #include "stilb/error.h"
+#include "support/coarser.h"
 #include "support/scene_builder.h"
 
 namespace stilb::run {
@@ -239,7 +240,7 @@ TEST(Requirements, StayUndecidedWhereTimeDoesNotSuffice) {
     const double mean = measure(rated_room(), {&plain, 1}, options).sensors[0].summary.mean.value;
     const Sensor close = required(desk(), "mean", mean);
     options.paths.reset();
-    options.time_s = 1;  // of the same seed: its paths are nearly those of the limit
+    options.time_s = coarser(1);  // of the same seed: its paths are nearly those of the limit
     const RunResult result = measure(rated_room(), {&close, 1}, options);
     EXPECT_EQ(result.stop_reason, StopReason::time_over);
     EXPECT_EQ(verdict_of(result), Verdict::undecided);

@@ -95,6 +95,12 @@ struct MitsubaMaterial {
                           "      <string name=\"distribution\" value=\"ggx\"/>\n" +
                               real("alpha", m.parameters().roughness));
     }
+    std::string operator()(const materials::Glazing& m) const {
+        if (!m.parameters().visible_transmittance.is_given())
+            warn(no_equal("glazing", "Mitsuba",
+                          "an uncoated pane that transmits as much along the normal stands for it"));
+        return (*this)(m.uncoated());
+    }
     std::string operator()(const materials::ThinDielectric& m) const {
         warn(
             "Mitsuba's thin pane averages the polarisations too early, and its transmittance is "

@@ -92,6 +92,12 @@ struct RadianceMaterial {
         return (*this)(
             materials::Translucent({reflectance, transmittance + Rgb::grey(-openness), Rgb::grey(openness)}));
     }
+    std::string operator()(const materials::Glazing& m) const {
+        if (!m.parameters().visible_transmittance.is_given())
+            warn(no_equal("glazing", "Radiance",
+                          "an uncoated pane that transmits as much along the normal stands for it"));
+        return (*this)(m.uncoated());
+    }
     std::string operator()(const materials::ThinDielectric& m) const {
         return with_rgb("glass", id, m.internal_transmittance, {m.ior});
     }
