@@ -62,9 +62,9 @@ Reflected reflected_in(const estimators::PatchTransport& transport, math::Random
                                         reflecting_sides(transport));
     estimators::TermSums sums(transport, layout);
     std::vector<std::pair<std::uint32_t, Vec3>> seen;
-    for (const std::uint32_t patch : transport.glossy_patches) {
-        const Vec3 out = normalized(kEye - transport.patches.middle(patch));
-        seen.emplace_back(transport.side_towards(patch, out), out);
+    for (const std::uint32_t side : transport.glossy_sides) {
+        const Vec3 out = normalized(kEye - transport.patches.middle(transport.patches.patch_of(side)));
+        if (dot(transport.patches.normal_of(side), out) > 0) seen.emplace_back(side, out);
     }
     Reflected result;
     result.exact.resize(seen.size());

@@ -41,10 +41,6 @@ struct PatchTransport : FirstShotPatches {
     const Material& material_of(std::uint32_t side) const {
         return scene.material(patches.material_of(scene, side));
     }
-    std::uint32_t side_towards(std::uint32_t patch, const Vec3& direction) const {
-        const bool front = dot(Vec3(patches.normals[patch]), direction) > 0;
-        return front ? patch : patches.other_side(patch);
-    }
     bool reflects_alike(std::uint32_t side) const { return glossy_number[side] == kConstant; }
 
     /// The light of first shot that a side reflects, as a mean over the patch; nothing where it depends on
