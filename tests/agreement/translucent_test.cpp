@@ -31,6 +31,7 @@ std::vector<Measured> measured(const std::string& text, const std::string& metho
     RunOptions options;
     options.method = method;
     options.error = 2 * error;  // half of an interval
+    options.patch_m = 0.5;      // of methods that have patches
     options.time_s = 60;
     const RunResult result = run::measure(file.scene, file.sensors, options);
     std::vector<Measured> all;
@@ -173,8 +174,8 @@ TEST_P(Backs, LightTheirOwnRoom) {
                "edge_v = [0, 0, 3]\nmaterial = \"wall\"\n"
                "[lights.back]\ntype = \"point\"\nposition = [1.5, 2, 2]\nflux = 3000\n"
                "[lights.front]\ntype = \"point\"\nposition = [4.5, 2, 2]\nflux = 1000\n"
-               "[sensors.back]\ntype = \"illuminance\"\nposition = [2, 2, 1.5]\nnormal = [0, 0, 1]\n"
-               "[sensors.front]\ntype = \"illuminance\"\nposition = [4, 2, 1.5]\nnormal = [0, 0, 1]\n";
+               "[sensors.back]\ntype = \"illuminance\"\nposition = [2, 2, 1.5]\nnormal = [1, 0, 0]\n"
+               "[sensors.front]\ntype = \"illuminance\"\nposition = [4, 2, 1.5]\nnormal = [-1, 0, 0]\n";
     };
     const std::string method = GetParam(), front = "type = \"diffuse\"\nreflectance = [0.2, 0.1, 0.3]";
     const bool is_diffuse_only = method == "radiosity" || method == "particles";

@@ -369,7 +369,7 @@ TEST(Library, TypesOfPartsAreListedWithTheirKeys) {
             types, [&](const stilb::PartType& part) { return part.section == section && part.type == type; });
         return found == types.end() ? std::vector<std::string>{} : found->keys;
     };
-    EXPECT_EQ(keys("materials", "diffuse"), (std::vector<std::string>{"type", "reflectance"}));
+    EXPECT_EQ(keys("materials", "diffuse"), (std::vector<std::string>{"type", "reflectance", "back"}));
     EXPECT_EQ(keys("objects", "box"), (std::vector<std::string>{"min", "max", "shape", "material", "scale",
                                                                 "rotate", "translate", "transform"}));
     EXPECT_FALSE(keys("lights", "environment").empty());

@@ -50,7 +50,7 @@ class SceneFiles(unittest.TestCase):
         scene = built()
         scene.materials["wall"] = stilb.Diffuse(reflectence=0.6)
         with self.assertRaisesRegex(ValueError, '^materials.wall: unknown key "reflectence" for type "diffuse". Did you mean '
-                                                '"reflectance"[?] Allowed: type, reflectance[.]$'):
+                                                '"reflectance"[?] Allowed: type, reflectance, back[.]$'):
             scene.measure()
 
     def test_parts_of_loaded_scenes_can_be_changed(self):
