@@ -184,7 +184,8 @@ TEST_P(Backs, LightTheirOwnRoom) {
         is_diffuse_only ? std::vector<std::string>{"reflectance = 0.8"}
                         : std::vector<std::string>{"diffuse = 0.5", "specular = 0.3", "exponent = 5"};
     const bool has_patches = is_diffuse_only || method == "ray-bundle";
-    const double error = has_patches ? 0.02 : 0.004 * coarser();
+    // Where patches are a metre long, radiosity is not sure of more.
+    const double error = method == "radiosity" ? 0.1 : has_patches ? 0.02 : 0.004 * coarser();
     const std::string back = fmt::format("type = \"{}\"\n{}", type, fmt::join(keys, "\n"));
     const auto both =
         measured(rooms(fmt::format("{}\nback = {{ type = \"{}\", {} }}", front, type, fmt::join(keys, ", "))),
