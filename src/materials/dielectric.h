@@ -26,14 +26,14 @@ double refracted_cosine(double cosine, double ior);
 /// reflection.
 FresnelReflectance fresnel_reflectance(double cosine, double ior);
 
-/// What fills a solid, or lies around it.
+/// The substance inside of a solid, or around it.
 struct Medium {
     double ior = 1;
     std::array<double, kBands> absorption_per_m{};  ///< by Beer's law, per band
 
     auto operator<=>(const Medium&) const = default;
     bool is_clear() const { return absorption_per_m == std::array<double, kBands>{}; }
-    /// What is left of light after a way through it.
+    /// The share of the light that is not absorbed over a path of this length.
     Rgb left_after(double way_m) const {
         Rgb left;
         for (std::size_t b = 0; b < kBands; ++b) left[b] = std::exp(-absorption_per_m[b] * way_m);

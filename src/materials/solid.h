@@ -16,8 +16,8 @@ Medium medium_outside(const Material& material);
 Material between_media(const Material& material, const Medium& inside, const Medium& outside);
 /// A thin sheet with two such faces.
 Material sheet_of(const Material& material);
-/// What is left of light that meets a surface after a way through the medium on this side: all, unless the
-/// surface is smooth and bounds a solid that absorbs.
+/// The share of the light that is not absorbed on a path of this length, which ends at the surface on this
+/// side: 1, unless the surface is smooth and the medium there absorbs.
 Rgb left_on_the_way(const Material& material, LightSide side, double way_m);
 
 }  // namespace stilb::materials

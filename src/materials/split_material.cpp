@@ -27,7 +27,7 @@ struct Divider {
     }
     SplitMaterial operator()(const Translucent& sheet) const {
         const auto& [reflected, transmitted, straight] = sheet.parameters();
-        // What passes straight has no place in a sum of diffuse light.
+        // Light that passes straight is not diffuse: such sheets are not divided.
         if (straight.max() > 0) return parts({}, sheet);
         return {reflected + transmitted, Diffuse{reflected + transmitted}, std::nullopt, transmitted};
     }

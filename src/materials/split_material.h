@@ -10,7 +10,7 @@
 namespace stilb::materials {
 
 struct SplitMaterial {
-    /// Of a translucent sheet, which sends on diffuse light to both sides, the sum for both.
+    /// Of a translucent sheet: diffuse reflectance and transmittance together.
     Rgb diffuse_reflectance;
     Material diffuse;               ///< a Diffuse of this reflectance
     std::optional<Material> gloss;  ///< nothing where all reflection is diffuse

@@ -187,7 +187,7 @@ class GlassSettler {
                                  materials::sheet_of(scene_.material(id))};
         });
     }
-    /// Of a material, between two media.
+    /// A material, and the media on its front and its back.
     using Derived = std::tuple<std::uint32_t, materials::Medium, materials::Medium>;
     template <typename Make>
     MaterialId derived(const Derived& key, const Make& make) {

@@ -18,7 +18,7 @@ constexpr double kIor = 1.5, kDegree = std::numbers::pi / 180;
 constexpr std::array<double, 3> kAngles_deg{0, 40, 70};
 /// Ways begin a little off the faces, here by 2 micrometres.
 constexpr double kLifts = 2e-4;
-/// What is left after 5 cm.
+/// The share of the light that is not absorbed over 5 cm.
 const Rgb kColor{{0.5, 0.8, 1}};
 
 /// A slab of 10 cm under an even sky, seen from above.

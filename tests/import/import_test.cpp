@@ -114,6 +114,26 @@ TEST_F(ImportTest, AFolderMeasuresAsItsGltfFile) {
     expect_same_readings(file, read);
 }
 
+/// 0.1 mm behind it, or a thousandth of a small lamp's diagonal.
+TEST_F(ImportTest, TheBackOfATwoSidedLampIsAsNearAsTheLampIsSmall) {
+    for (const double scale : {0.3, 0.01}) {
+        GltfText gltf = room_in_gltf();
+        gltf.add_material(R"("name": "lamp", "doubleSided": true, "emissiveFactor": [1, 1, 1],
+            "extensions": {"KHR_materials_emissive_strength": {"emissiveStrength": 500}})");
+        gltf.add_node(
+            fmt::format(R"("name": "panel", "mesh": {}, "translation": [2, 2.4, -1.5], "scale": [{}, 1, {}])",
+                        gltf.add_mesh(gltf_square(), 2), scale, scale));
+        const Scene scene = read_gltf(gltf.text(), kPoints).scene;
+        const auto bounds = [&](const std::string& name) {
+            return bounds_of(std::ranges::find(scene.objects, name, &Object::name)->shape);
+        };
+        const Bounds front = bounds("panel"), back = bounds("panel (back)");
+        const double diagonal_m = length(front.max - front.min);
+        EXPECT_EQ(1e-3 * diagonal_m < 1e-4, scale < 0.1);
+        EXPECT_NEAR(std::abs(back.min.z - front.min.z), std::min(1e-4, 1e-3 * diagonal_m), 1e-6) << scale;
+    }
+}
+
 /// The faces of a mesh in the plane y = height of glTF, and the others.
 struct Parts {
     Mesh level, rest;

@@ -102,7 +102,7 @@ TEST(RadianceMaterials, DielectricAndInterfaceAreGlass) {
     EXPECT_TRUE(clear.warnings.empty());
     const ReadMaterial tinted = read_radiance_material("void dielectric m 0 0 5 .9 1 0 1.5 2");
     EXPECT_EQ(tinted.warnings, (std::vector<std::string>{"dielectric m: its dispersion is left out."}));
-    // What is left after a unit of length, here a metre.
+    // The transmissivity holds for a unit of length, here a metre.
     expect_bands(tinted.material.get_if<materials::Dielectric>()->inside().left_after(2), {{.81, 1, 1e-12}});
     const auto interface = model_of<materials::Dielectric>("void interface m 0 0 8 1 1 1 1.5 .9 .8 .7 1.33");
     EXPECT_EQ(interface.ior, 1.5);

@@ -137,6 +137,9 @@ bool depends_on_hand(const Draft& draft) {
 }
 
 Draft in_motion(Draft draft, const Motion& motion) {
+    for (Part& material : draft.materials) {
+        if (TomlValue* const distance = material.find("distance")) multiply(*distance, motion.scale);
+    }
     for (Part& object : draft.objects) move_object(object, motion);
     for (Part& light : draft.lights) move_light(light, motion);
     for (Part& sensor : draft.sensors) move_sensor(sensor, motion);

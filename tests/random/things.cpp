@@ -27,7 +27,8 @@ void add_tetrahedron(Draft& draft, const std::string& material, const Vec3& cent
 }
 
 /// Glass, smooth or frosted: of a solid, or a sheet.
-std::string add_clear_material(Draft& draft, Draw& draw, bool is_solid) {
+/// `size_m`: of the thing.
+std::string add_clear_material(Draft& draft, Draw& draw, bool is_solid, double size_m) {
     const double ior = draw.between(1.1, 2);
     if (draw.chance(0.3)) {
         Part& frosted = draft.add_material("frosted")
@@ -37,7 +38,11 @@ std::string add_clear_material(Draft& draft, Draw& draw, bool is_solid) {
         return frosted.name;
     }
     Part& material = draft.add_material(is_solid ? "glass" : "pane").set("ior", number(ior));
-    if (!is_solid) material.set("internal_transmittance", number(draw.between(0.5, 1)));
+    if (!is_solid) {
+        material.set("internal_transmittance", number(draw.between(0.5, 1)));
+    } else if (draw.chance(0.4)) {
+        material.set("color", colour(draw, 0.2, 1)).set("distance", number(size_m * draw.by_size(0.3, 3)));
+    }
     return material.name;
 }
 
@@ -90,7 +95,7 @@ void add_thing(Draft& draft, Draw& draw, const Site& site) {
     const Vec3 center = draw.inside(site.low + 1.3 * margin, site.high - 1.3 * margin);
     const std::size_t shape = draw.weighted({3, 3, 2, 2, 2, 1});
     const bool is_solid = shape != 2 && shape != 3;
-    const std::string material = draw.chance(0.06)   ? add_clear_material(draft, draw, is_solid)
+    const std::string material = draw.chance(0.06)   ? add_clear_material(draft, draw, is_solid, radius)
                                  : draw.chance(0.06) ? add_sheet_material(draft, draw)
                                                      : add_material(draft, draw);
     if (draw.chance(0.2)) add_back(draft, draw, material);

@@ -81,7 +81,8 @@ struct MitsubaMaterial {
                              color("specular_reflectance", m.reflectance));
     }
     std::string operator()(const materials::Dielectric& m) const {
-        if (m.color.min() < 1) warn("Mitsuba's glass is clear: it absorbs nothing inside.");
+        if (!m.inside().is_clear() || !m.outside.is_clear())
+            warn("Mitsuba's glass is clear: it absorbs nothing inside.");
         return dielectric("dielectric", m.ior, m.outside.ior, "");
     }
     std::string operator()(const materials::Frosted& m) const {
